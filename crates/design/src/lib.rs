@@ -1,0 +1,1 @@
+//! The document: reference, template and pieces; the regenerate pipeline and its reports.

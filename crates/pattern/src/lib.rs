@@ -1,0 +1,1 @@
+//! Sewing patterns: flattening, pieces, allowances, notches, DXF, SVG, PDF.

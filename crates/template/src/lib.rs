@@ -1,0 +1,1 @@
+//! Feature templates: encoding, profiles, shape construction, collision, regeneration.

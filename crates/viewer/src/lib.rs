@@ -1,0 +1,1 @@
+//! Pictures of models and patterns without GPU or display.
