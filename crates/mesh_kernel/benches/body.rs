@@ -1,0 +1,2 @@
+//! Benches to come.
+fn main() {}

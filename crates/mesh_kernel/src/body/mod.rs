@@ -1,0 +1,1 @@
+//! The non-manifold body: surfaces, joints, loops, chains, attributes.

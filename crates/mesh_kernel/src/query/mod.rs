@@ -1,0 +1,1 @@
+//! Geometric queries on triangle meshes.

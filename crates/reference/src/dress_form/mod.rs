@@ -1,0 +1,1 @@
+//! Dress forms from tape measurements.

@@ -1,0 +1,1 @@
+//! Features of human bodies from geometry alone.
