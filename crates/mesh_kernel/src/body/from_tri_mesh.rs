@@ -361,7 +361,6 @@ fn trace_joints(
         distinct.dedup();
         (distinct.len() == out.len()).then_some(out)
     };
-    let _ = copies;
     let mut done = vec![false; joint_edges.len()];
     let mut joints = Vec::new();
     for (&seed, list) in uses {
