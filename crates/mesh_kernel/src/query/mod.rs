@@ -1,1 +1,12 @@
 //! Geometric queries on triangle meshes.
+//!
+//! * [`Adjacency`]: edges, neighbours, boundary loops, components;
+//! * [`SectionStack`], [`plane_section`]: cuts with planes; [`tape_length`]: what a tape measure reads on one.
+
+mod adjacency;
+mod hull;
+mod section;
+
+pub use adjacency::Adjacency;
+pub use hull::{convex_hull_in_plane, tape_length};
+pub use section::{SectionLoop, SectionStack, plane_section};
