@@ -120,7 +120,7 @@ pub(super) fn push_float(out: &mut Vec<u8>, value: f64) {
 pub(super) fn push_rounded(out: &mut Vec<u8>, value: f64, decimals: u8) {
     let scale = EXACT_TENS[usize::from(decimals.min(12))];
     let scaled = (value * scale).round();
-    if !(scaled.abs() < 9e15) {
+    if scaled.is_nan() || scaled.abs() >= 9e15 {
         return push_float(out, value);
     }
     let units = scaled.abs() as u64;
