@@ -14,7 +14,7 @@ impl Color {
     /// Ink of what shall stay in the background: ticks, grids, hidden lines.
     pub const FAINT_INK: Self = Self([142, 147, 156]);
     /// A dress form's or a body's skin: warm light grey.
-    pub const SKIN: Self = Self([222, 208, 196]);
+    pub const SKIN: Self = Self([232, 216, 203]);
     /// Background of pictures.
     pub const PAPER: Self = Self([248, 248, 246]);
     /// What has no value (`NaN`) where colours show a quantity.

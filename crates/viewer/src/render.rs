@@ -83,7 +83,7 @@ pub struct Occlusion {
 
 impl Default for Occlusion {
     fn default() -> Self {
-        Self { rays: 6, shadow_rays: 1, reach: 0.16 }
+        Self { rays: 8, shadow_rays: 2, reach: 0.2 }
     }
 }
 
@@ -118,7 +118,8 @@ pub fn render(scene: &Scene, camera: &Camera, options: &RenderOptions) -> Result
                 let light = occlusion::light(&blockers, &places, width, occlusion, reach, lights.key);
                 let floor = options.floor.then(|| {
                     let places = frame.floor_places(&visible, &pattern, lo, hi);
-                    occlusion::light(&blockers, &places, width, occlusion, reach, lights.key)
+                    let light = occlusion::light(&blockers, &places, width, occlusion, reach, lights.key);
+                    Floor { places, light, radius: FLOOR_RADIUS * diagonal as f32 }
                 });
                 (Some(light), floor)
             }
@@ -147,7 +148,7 @@ pub fn render(scene: &Scene, camera: &Camera, options: &RenderOptions) -> Result
                 }
             }
             if open > 0.0 {
-                let shadow = floor.as_ref().map_or(1.0, |f| 0.35 + 0.65 * (0.6 * f[pixel].ambient + 0.4 * f[pixel].key));
+                let shadow = floor.as_ref().map_or(1.0, |f| f.shade(pixel));
                 for k in 0..3 {
                     sum[k] += background[k] * shadow * open;
                 }
@@ -283,6 +284,27 @@ fn barycentric(corners: &[DVec3; 3], origin: DVec3, direction: DVec3) -> [f64; 3
     clamped.map(|x| x / sum)
 }
 
+/// The floor's shadow reaches this far from the model's middle, in diagonals.
+const FLOOR_RADIUS: f32 = 0.62;
+
+/// The shadow under the model.
+struct Floor {
+    places: Vec<Option<Place>>,
+    light: Vec<Light>,
+    radius: f32,
+}
+
+impl Floor {
+    /// What the shadow leaves of the background's light: fades out evenly with the distance from the middle.
+    fn shade(&self, pixel: usize) -> f32 {
+        let Some(place) = &self.places[pixel] else { return 1.0 };
+        let away = (Vec3::new(place.position.x, 0.0, place.position.z).length() / self.radius).min(1.0);
+        let fade = (1.0 - away * away).powi(2);
+        let light = &self.light[pixel];
+        1.0 - fade * (0.55 * (1.0 - light.ambient) + 0.22 * (1.0 - light.key))
+    }
+}
+
 /// What turns pixels into places.
 struct Frame<'a> {
     projector: &'a Projector,
@@ -318,7 +340,7 @@ impl Frame<'_> {
 
     /// The floor's places behind pixels that the model does not fill, near the model.
     fn floor_places(&self, visible: &Visible, pattern: &[[f32; 2]], lo: DVec3, hi: DVec3) -> Vec<Option<Place>> {
-        let reach = 0.6 * (hi - lo).length();
+        let reach = f64::from(FLOOR_RADIUS) * (hi - lo).length();
         (0..visible.starts.len() - 1)
             .into_par_iter()
             .with_min_len(256)
@@ -334,7 +356,8 @@ impl Frame<'_> {
                     return None;
                 }
                 let position = origin + direction * ((lo.y - origin.y) / direction.y);
-                let inside = position.cmpge(lo - reach).all() && position.cmple(hi + reach).all();
+                let away = position - self.centre;
+                let inside = away.x.hypot(away.z) < reach;
                 inside.then(|| self.place(position, DVec3::Y))
             })
             .collect()

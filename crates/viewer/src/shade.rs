@@ -27,7 +27,7 @@ impl Lights {
         let toward = |x: f64, y: f64, z: f64| (right * x + up * y + back * z).normalize().as_vec3();
         // The sky is the world's, but a view along the vertical takes the picture's up for it.
         let sky = if DVec3::Y.dot(back).abs() > 0.9 { up } else { DVec3::Y };
-        Self { key: toward(-0.50, 0.62, 0.72), fill: toward(0.75, 0.05, 0.55), up: sky.as_vec3() }
+        Self { key: toward(-0.52, 0.66, 0.62), fill: toward(0.75, 0.05, 0.55), up: sky.as_vec3() }
     }
 
     /// Light that leaves a surface of colour `albedo` (linear) towards the eye.
@@ -36,7 +36,7 @@ impl Lights {
         let key = ((normal.dot(self.key) + 0.22) / 1.22).max(0.0) * (0.25 + 0.75 * light.key);
         let fill = normal.dot(self.fill).max(0.0) * light.ambient;
         let sky = (0.72 + 0.28 * normal.dot(self.up)) * light.ambient;
-        let sum = 0.60 * key + 0.16 * fill + 0.42 * sky;
+        let sum = 0.74 * key + 0.14 * fill + 0.40 * sky;
         let sum = match finish {
             Finish::Matte => sum,
             Finish::Data => 0.62 + 0.40 * sum,
