@@ -29,11 +29,17 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     };
     let options = if views.len() > 1 { RenderOptions::sized(560, 1100) } else { RenderOptions::default() };
-    let mut images = Vec::new();
-    for (name, view) in &views {
+    let mut cameras = Vec::new();
+    for (_, view) in &views {
         let lens = if *view == View::Iso { Lens::PORTRAIT } else { Lens::Orthographic };
+        cameras.push(Camera::new(*view, lens).fit(&scene, &options)?);
+    }
+    // One scale for all.
+    let height = cameras.iter().map(|c| c.height).fold(0.0, f64::max);
+    let mut images = Vec::new();
+    for ((name, view), camera) in views.iter().zip(cameras) {
         let options = RenderOptions { floor: *view == View::Iso, ..options.clone() };
-        let camera = Camera::new(*view, lens).fit(&scene, &options)?;
+        let camera = Camera { height, ..camera };
         images.push((name.as_str(), render(&scene, &camera, &options)?));
     }
     let parts: Vec<_> = images.iter().map(|(name, image)| (*name, image)).collect();

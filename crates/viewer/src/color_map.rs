@@ -26,8 +26,9 @@ impl ColorMap {
         let t = t.clamp(0.0, 1.0);
         match self {
             Self::Sequential => {
-                let hue = 5.25 - 3.45 * t;
-                let chroma = 0.13 + 0.035 * (std::f64::consts::PI * t).sin() + 0.03 * t;
+                // Chroma dips in the blue-greens, where sRGB has little of it: no kinks from clipping.
+                let hue = 5.45 - 3.60 * t;
+                let chroma = 0.13 + 0.05 * t - 0.27 * t * (1.0 - t);
                 Color::from_oklch(0.30 + 0.62 * t, chroma, hue)
             }
             Self::Diverging => {

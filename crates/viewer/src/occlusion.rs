@@ -74,30 +74,102 @@ impl Blockers {
     }
 }
 
-/// Light at all places of a picture (`None`: background), smoothed. `key` points to the key light.
-pub(crate) fn light(
-    blockers: &Blockers,
-    places: &[Option<Place>],
+impl Place {
+    /// Whether another place lies on the same stretch of surface.
+    fn alike(&self, other: &Self) -> bool {
+        let away = other.position - self.position;
+        self.normal.dot(other.normal) > 0.7
+            && away.dot(self.normal).abs() < 3.0 * self.pixel
+            && away.dot(other.normal).abs() < 3.0 * self.pixel
+    }
+}
+
+/// Light at one place a pixel.
+pub(crate) struct LightMap {
+    places: Vec<Option<Place>>,
+    light: Vec<Light>,
     width: usize,
-    options: &Occlusion,
-    reach: f32,
-    key: Vec3,
-) -> Vec<Light> {
-    let sky = hemisphere(options.rays.max(1) as usize);
-    let lamp = lamp(options.shadow_rays as usize, key);
-    let rough: Vec<Light> = places
-        .par_iter()
-        .enumerate()
-        .with_min_len(256)
-        .map(|(i, place)| match place {
-            Some(place) => {
-                let member = (i / width % BLOCK) * BLOCK + i % width % BLOCK;
-                cast(blockers, place, member, &sky, &lamp, reach, key)
+}
+
+impl LightMap {
+    /// Casts the rays of all places (`None`: background) and smooths. `key` points to the key light, `reach` is in
+    /// millimetres.
+    pub(crate) fn new(
+        blockers: &Blockers,
+        places: Vec<Option<Place>>,
+        width: usize,
+        options: &Occlusion,
+        reach: f32,
+        key: Vec3,
+    ) -> Self {
+        let sky = hemisphere(options.rays.max(1) as usize);
+        let lamp = lamp(options.shadow_rays as usize, key);
+        let rough: Vec<Light> = places
+            .par_iter()
+            .enumerate()
+            .with_min_len(256)
+            .map(|(i, place)| match place {
+                Some(place) => {
+                    let member = (i / width % BLOCK) * BLOCK + i % width % BLOCK;
+                    cast(blockers, place, member, &sky, &lamp, reach, key)
+                }
+                None => Light::FULL,
+            })
+            .collect();
+        let mut map = Self { places, light: rough, width };
+        map.light = map.smoothed();
+        map
+    }
+
+    /// The place that stands for a pixel.
+    pub(crate) fn place(&self, pixel: usize) -> Option<&Place> {
+        self.places[pixel].as_ref()
+    }
+
+    /// Light at the place that stands for a pixel.
+    pub(crate) fn of_pixel(&self, pixel: usize) -> Light {
+        self.light[pixel]
+    }
+
+    /// Light at a place seen in a part of a pixel: the pixel's own when they lie on the same surface, else that of
+    /// neighbours on it; else the pixel's own.
+    pub(crate) fn near(&self, pixel: usize, place: Option<Place>) -> Light {
+        let Some(place) = place else { return self.light[pixel] };
+        if self.places[pixel].is_none_or(|own| own.alike(&place)) {
+            return self.light[pixel];
+        }
+        self.average(&self.light, pixel, &place, [1, 1]).unwrap_or(self.light[pixel])
+    }
+
+    /// Averages each 4 x 4 block of neighbours over those that lie on the same surface.
+    fn smoothed(&self) -> Vec<Light> {
+        (0..self.light.len())
+            .into_par_iter()
+            .with_min_len(256)
+            .map(|i| match &self.places[i] {
+                Some(own) => self.average(&self.light, i, own, [1, 2]).unwrap_or(self.light[i]),
+                None => Light::FULL,
+            })
+            .collect()
+    }
+
+    /// Mean light of the pixels from `before` left and above to `after` right and below that see the same surface.
+    fn average(&self, light: &[Light], i: usize, own: &Place, [before, after]: [usize; 2]) -> Option<Light> {
+        let (x, y) = (i % self.width, i / self.width);
+        let height = light.len() / self.width;
+        let (mut ambient, mut key, mut weight) = (0.0, 0.0, 0.0);
+        for v in y.saturating_sub(before)..(y + after + 1).min(height) {
+            for u in x.saturating_sub(before)..(x + after + 1).min(self.width) {
+                let j = v * self.width + u;
+                if self.places[j].is_some_and(|other| own.alike(&other)) {
+                    ambient += light[j].ambient;
+                    key += light[j].key;
+                    weight += 1.0;
+                }
             }
-            None => Light::FULL,
-        })
-        .collect();
-    smooth(&rough, places, width)
+        }
+        (weight > 0.0).then(|| Light { ambient: ambient / weight, key: key / weight })
+    }
 }
 
 /// Directions over the hemisphere around +z, denser at the pole by the cosine, with the part of the reach that each
@@ -164,35 +236,6 @@ fn cast(
     } else {
         open(&mut lamp.iter().skip(member).step_by(share).map(|d| blockers.blocked(from, *d, f32::MAX)))
     };
-    Light { ambient, key: key_light }
-}
-
-/// Averages each 4 x 4 block of neighbours over those that lie on the same surface.
-fn smooth(rough: &[Light], places: &[Option<Place>], width: usize) -> Vec<Light> {
-    let height = rough.len() / width;
-    (0..rough.len())
-        .into_par_iter()
-        .with_min_len(256)
-        .map(|i| {
-            let Some(own) = places[i] else { return Light::FULL };
-            let (x, y) = (i % width, i / width);
-            let (mut ambient, mut key, mut weight) = (0.0, 0.0, 0.0);
-            for v in (y + 1).saturating_sub(2)..(y + 3).min(height) {
-                for u in (x + 1).saturating_sub(2)..(x + 3).min(width) {
-                    let j = v * width + u;
-                    let Some(other) = places[j] else { continue };
-                    let away = other.position - own.position;
-                    let alike = own.normal.dot(other.normal) > 0.7
-                        && away.dot(own.normal).abs() < 3.0 * own.pixel
-                        && away.dot(other.normal).abs() < 3.0 * own.pixel;
-                    if alike {
-                        ambient += rough[j].ambient;
-                        key += rough[j].key;
-                        weight += 1.0;
-                    }
-                }
-            }
-            if weight == 0.0 { rough[i] } else { Light { ambient: ambient / weight, key: key / weight } }
-        })
-        .collect()
+    // No gap is quite black: light comes back from its walls.
+    Light { ambient: 0.12 + 0.88 * ambient, key: key_light }
 }

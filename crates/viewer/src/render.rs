@@ -8,8 +8,8 @@ use crate::color::{Color, Encoder};
 use crate::error::{RenderError, check_size};
 use crate::image::Image;
 use crate::normals::corner_normals;
-use crate::occlusion::{self, Blockers, Light, Place};
-use crate::raster::{self, Visible};
+use crate::occlusion::{Blockers, Light, LightMap, Place};
+use crate::raster::{self, Fragment, Visible};
 use crate::scene::{Paint, Reverse, Scene};
 use crate::shade::{Finish, Lights};
 use crate::{labels, legend, lines};
@@ -110,23 +110,19 @@ pub fn render(scene: &Scene, camera: &Camera, options: &RenderOptions) -> Result
     let diagonal = (hi - lo).length();
     let lights = Lights::new(&projector);
     let frame = Frame { projector: &projector, width, centre: 0.5 * (lo + hi) };
-    let (light, floor) = match &options.occlusion {
-        Some(occlusion) => match Blockers::new(&surfaces.corners, frame.centre, diagonal) {
-            Some(blockers) => {
-                let reach = (occlusion.reach * diagonal) as f32;
-                let places = frame.places(&visible, &surfaces.corners);
-                let light = occlusion::light(&blockers, &places, width, occlusion, reach, lights.key);
-                let floor = options.floor.then(|| {
-                    let places = frame.floor_places(&visible, &pattern, lo, hi);
-                    let light = occlusion::light(&blockers, &places, width, occlusion, reach, lights.key);
-                    Floor { places, light, radius: FLOOR_RADIUS * diagonal as f32 }
-                });
-                (Some(light), floor)
-            }
-            None => (None, None),
-        },
-        None => (None, None),
+    let blockers = options
+        .occlusion
+        .as_ref()
+        .and_then(|occlusion| Some((occlusion, Blockers::new(&surfaces.corners, frame.centre, diagonal)?)));
+    let reached = |places: Vec<Option<Place>>, (occlusion, blockers): &(&Occlusion, Blockers)| {
+        let reach = (occlusion.reach * diagonal) as f32;
+        LightMap::new(blockers, places, width, occlusion, reach, lights.key)
     };
+    let light = blockers.as_ref().map(|b| reached(frame.places(&visible, &surfaces.corners), b));
+    let floor = blockers.as_ref().filter(|_| options.floor).map(|b| Floor {
+        map: reached(frame.floor_places(&visible, &pattern, lo, hi), b),
+        radius: FLOOR_RADIUS * diagonal as f32,
+    });
 
     let encoder = Encoder::new();
     let background = options.background.linear();
@@ -135,10 +131,15 @@ pub fn render(scene: &Scene, camera: &Camera, options: &RenderOptions) -> Result
     rgb.par_chunks_mut(width * 3).enumerate().for_each(|(y, row)| {
         for x in 0..width {
             let pixel = y * width + x;
-            let own = light.as_ref().map_or(Light::FULL, |l| l[pixel]);
+            let fragments = visible.of_pixel(pixel);
             let mut sum = [0.0f32; 3];
             let mut open = samples;
-            for fragment in visible.of_pixel(pixel) {
+            for fragment in fragments {
+                let own = match &light {
+                    None => Light::FULL,
+                    Some(map) if fragments.len() == 1 => map.of_pixel(pixel),
+                    Some(map) => map.near(pixel, frame.place_of(fragment, pixel, &surfaces.corners)),
+                };
                 let at = DVec2::new(x as f64 + f64::from(fragment.at[0]), y as f64 + f64::from(fragment.at[1]));
                 let color = surfaces.color(&projector, &lights, fragment.face, at, own);
                 let weight = f32::from(fragment.samples);
@@ -289,18 +290,17 @@ const FLOOR_RADIUS: f32 = 0.62;
 
 /// The shadow under the model.
 struct Floor {
-    places: Vec<Option<Place>>,
-    light: Vec<Light>,
+    map: LightMap,
     radius: f32,
 }
 
 impl Floor {
     /// What the shadow leaves of the background's light: fades out evenly with the distance from the middle.
     fn shade(&self, pixel: usize) -> f32 {
-        let Some(place) = &self.places[pixel] else { return 1.0 };
+        let Some(place) = self.map.place(pixel) else { return 1.0 };
         let away = (Vec3::new(place.position.x, 0.0, place.position.z).length() / self.radius).min(1.0);
         let fade = (1.0 - away * away).powi(2);
-        let light = &self.light[pixel];
+        let light = self.map.of_pixel(pixel);
         1.0 - fade * (0.55 * (1.0 - light.ambient) + 0.22 * (1.0 - light.key))
     }
 }
@@ -319,23 +319,24 @@ impl Frame<'_> {
             .into_par_iter()
             .with_min_len(256)
             .map(|pixel| {
-                let fragments = visible.of_pixel(pixel);
-                let most = fragments.iter().max_by_key(|f| (f.samples, u32::MAX - f.face))?;
-                let at = DVec2::new(
-                    (pixel % self.width) as f64 + f64::from(most.at[0]),
-                    (pixel / self.width) as f64 + f64::from(most.at[1]),
-                );
-                let face = &corners[most.face as usize];
-                let (origin, direction) = self.projector.ray(at);
-                let [u, v, w] = barycentric(face, origin, direction);
-                let position = face[0] * u + face[1] * v + face[2] * w;
-                let normal = (face[1] - face[0]).cross(face[2] - face[0]).normalize_or_zero();
-                if normal == DVec3::ZERO {
-                    return None;
-                }
-                Some(self.place(position, if normal.dot(direction) > 0.0 { -normal } else { normal }))
+                let most = visible.of_pixel(pixel).iter().max_by_key(|f| (f.samples, u32::MAX - f.face))?;
+                self.place_of(most, pixel, corners)
             })
             .collect()
+    }
+
+    /// The place that a part of a pixel sees; `None` on a face without area.
+    fn place_of(&self, fragment: &Fragment, pixel: usize, corners: &[[DVec3; 3]]) -> Option<Place> {
+        let at = DVec2::new(
+            (pixel % self.width) as f64 + f64::from(fragment.at[0]),
+            (pixel / self.width) as f64 + f64::from(fragment.at[1]),
+        );
+        let face = &corners[fragment.face as usize];
+        let (origin, direction) = self.projector.ray(at);
+        let [u, v, w] = barycentric(face, origin, direction);
+        let position = face[0] * u + face[1] * v + face[2] * w;
+        let normal = (face[1] - face[0]).cross(face[2] - face[0]).try_normalize()?;
+        Some(self.place(position, if normal.dot(direction) > 0.0 { -normal } else { normal }))
     }
 
     /// The floor's places behind pixels that the model does not fill, near the model.

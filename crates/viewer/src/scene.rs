@@ -126,6 +126,17 @@ impl SceneMesh {
         Self { paint: Paint::Faces(colors), ..Self::of_mesh(mesh, cloth_color(0)) }
     }
 
+    /// Positions of the nodes that faces use, each once: files may hold stray ones.
+    fn used_positions(&self) -> impl Iterator<Item = DVec3> {
+        let mut used = vec![false; self.positions.len()];
+        for v in self.faces.iter().flatten() {
+            if let Some(used) = used.get_mut(*v as usize) {
+                *used = true;
+            }
+        }
+        self.positions.iter().zip(used).filter(|(_, used)| *used).map(|(p, _)| *p)
+    }
+
     /// The same surface with another paint.
     pub fn painted(self, paint: Paint) -> Self {
         Self { paint, ..self }
@@ -207,7 +218,7 @@ impl Scene {
 
     /// All places that a camera must see: nodes of faces, line corners, points.
     pub(crate) fn places(&self) -> impl Iterator<Item = DVec3> {
-        let nodes = self.meshes.iter().filter(|m| !m.faces.is_empty()).flat_map(|m| m.positions.iter().copied());
+        let nodes = self.meshes.iter().flat_map(|m| m.used_positions());
         let corners = self.lines.iter().flat_map(|l| l.points.iter().copied());
         nodes.chain(corners).chain(self.points.iter().map(|p| p.position))
     }
