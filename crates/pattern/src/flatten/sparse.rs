@@ -1,9 +1,9 @@
 //! The symmetric system of a patch: two unknowns a node, 2×2 blocks at nodes and edges, one symbolic analysis for all
 //! factorisations of the same patch.
 
-use dyn_stack_buffer::Buffer;
 use faer::{
     Conj, MatMut, Par, Side,
+    dyn_stack::{MemBuffer, MemStack},
     linalg::cholesky::llt::factor::LltRegularization,
     sparse::{
         SparseColMatRef, SymbolicSparseColMatRef,
@@ -20,11 +20,6 @@ use glam::DVec3;
 
 use super::ordering::{Neighbours, nested_dissection};
 
-/// Where faer works while it factorises and solves.
-mod dyn_stack_buffer {
-    pub(super) use faer::dyn_stack::MemBuffer as Buffer;
-}
-
 /// The system did not factorise: it is not positive definite.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NotDefinite;
@@ -36,11 +31,10 @@ pub(crate) struct BlockSystem {
     column_start: Vec<u32>,
     rows: Vec<u32>,
     values: Vec<f64>,
-    /// Offset of the first column entry of every place (its diagonal block).
     edge_slots: Vec<EdgeSlot>,
     symbolic: SymbolicCholesky<u32>,
     factor: Vec<f64>,
-    buffer: Buffer,
+    buffer: MemBuffer,
     solution: Vec<f64>,
 }
 
@@ -98,12 +92,14 @@ impl BlockSystem {
             }
         }
         column_start.push(rows.len() as u32);
-        let structure = SymbolicSparseColMatRef::new_checked(2 * n, 2 * n, &column_start, None, &rows);
+        // The analysis reads the upper triangle, the numeric factorisation the lower one.
+        let (upper_start, upper_rows) = transpose(&column_start, &rows);
+        let structure = SymbolicSparseColMatRef::new_checked(2 * n, 2 * n, &upper_start, None, &upper_rows);
         let threshold =
             if n < 150 { SupernodalThreshold::FORCE_SIMPLICIAL } else { SupernodalThreshold::FORCE_SUPERNODAL };
         let symbolic = factorize_symbolic_cholesky(
             structure,
-            Side::Lower,
+            Side::Upper,
             SymmetricOrdering::Identity,
             CholeskySymbolicParams { supernodal_flop_ratio_threshold: threshold, ..Default::default() },
         )
@@ -114,7 +110,7 @@ impl BlockSystem {
         Ok(Self {
             values: vec![0.0; rows.len()],
             factor: vec![0.0; symbolic.len_val()],
-            buffer: Buffer::try_new(need).map_err(|_| NotDefinite)?,
+            buffer: MemBuffer::try_new(need).map_err(|_| NotDefinite)?,
             solution: vec![0.0; 2 * n],
             place,
             column_start,
@@ -176,7 +172,7 @@ impl BlockSystem {
                 Side::Lower,
                 LltRegularization::default(),
                 Par::Seq,
-                faer::dyn_stack::MemStack::new(&mut self.buffer),
+                MemStack::new(&mut self.buffer),
                 Default::default(),
             )
             .map(|_| ())
@@ -194,11 +190,30 @@ impl BlockSystem {
             Conj::No,
             MatMut::from_column_major_slice_mut(&mut self.solution, n, 1),
             Par::Seq,
-            faer::dyn_stack::MemStack::new(&mut self.buffer),
+            MemStack::new(&mut self.buffer),
         );
         for (v, o) in out.iter_mut().enumerate() {
             let p = 2 * self.place[v] as usize;
             o.copy_from_slice(&self.solution[p..p + 2]);
         }
     }
+}
+
+/// Transposed structure of compressed columns.
+fn transpose(start: &[u32], rows: &[u32]) -> (Vec<u32>, Vec<u32>) {
+    let n = start.len() - 1;
+    let mut out_start = vec![0u32; n + 1];
+    rows.iter().for_each(|&r| out_start[r as usize + 1] += 1);
+    for r in 0..n {
+        out_start[r + 1] += out_start[r];
+    }
+    let mut fill = out_start.clone();
+    let mut out = vec![0u32; rows.len()];
+    for c in 0..n {
+        for &r in &rows[start[c] as usize..start[c + 1] as usize] {
+            out[fill[r as usize] as usize] = c as u32;
+            fill[r as usize] += 1;
+        }
+    }
+    (out_start, out)
 }
