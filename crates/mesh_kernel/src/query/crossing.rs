@@ -24,11 +24,7 @@ const CHUNK: usize = 512;
 impl Crossings {
     /// Builds the hierarchy. O(n log n).
     pub fn new(mesh: &TriMesh) -> Self {
-        Self::with_bvh(Bvh::new(mesh), mesh)
-    }
-
-    pub(super) fn with_bvh(bvh: Bvh, mesh: &TriMesh) -> Self {
-        Self { bvh, positions: mesh.positions.clone(), faces: mesh.faces.clone() }
+        Self { bvh: Bvh::new(mesh), positions: mesh.positions.clone(), faces: mesh.faces.clone() }
     }
 
     /// All pairs (face of `other`, face of this mesh) that have a point in common, in ascending order. O(n log m) plus
