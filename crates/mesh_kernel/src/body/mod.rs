@@ -33,6 +33,7 @@ mod attribute;
 mod build;
 mod carry;
 mod chain;
+mod check;
 mod complex;
 mod counts;
 mod from_tri_mesh;
@@ -50,6 +51,7 @@ pub use adjacency::EdgeIndex;
 pub use attribute::{AttributeEdge, AttributeError, AttributeNode};
 pub use build::{BuildError, ChainSpec, JOINT_SNAP, JointLabel, JointSpec, SurfaceSpec};
 pub use chain::{Chain, Loop};
+pub use check::Defect;
 pub use counts::{Counts, FreeEdge};
 pub use ids::{
     AttributeEdgeId, AttributeNodeId, ChainId, DirectedEdge, EdgeId, FaceId, JointId, LoopId, NONE, NodeId,
