@@ -2,10 +2,10 @@
 
 use mesh_kernel::TriMesh;
 use mesh_kernel::glam::{DVec2, DVec3};
+use mesh_kernel::query::SectionStack;
 use rayon::prelude::*;
 
-use super::ring::{Ring, depth_at, hull, outer_rings};
-use super::slicer::SectionStack;
+use super::ring::{Gaps, Ring, depth_at, hull, outer_rings};
 
 /// Level spacing as a part of the height (4 mm for an adult).
 const LEVELS: usize = 420;
@@ -90,7 +90,7 @@ impl<'a> Figure<'a> {
         let stack = SectionStack::new(mesh, DVec3::Y);
         let step = height / LEVELS as f64;
         let levels =
-            (0..LEVELS).into_par_iter().map(|i| cut(&stack, (i as f64 + 0.5) * step)).collect::<Vec<_>>();
+            (0..LEVELS).into_par_iter().map(|i| cut(&stack, (i as f64 + 0.5) * step, Gaps::Join)).collect::<Vec<_>>();
         Self { mesh, stack, height, step, levels }
     }
 
@@ -110,7 +110,12 @@ impl<'a> Figure<'a> {
 
     /// Outlines at any height.
     pub(crate) fn at(&self, y: f64) -> Level {
-        cut(&self.stack, y)
+        cut(&self.stack, y, Gaps::Join)
+    }
+
+    /// Outlines at any height where a hole of the skin counts as a gap between limbs.
+    pub(crate) fn parted_at(&self, y: f64) -> Level {
+        cut(&self.stack, y, Gaps::Part)
     }
 
     /// Index of the level nearest to a height.
@@ -130,8 +135,8 @@ impl<'a> Figure<'a> {
     }
 }
 
-fn cut(stack: &SectionStack, y: f64) -> Level {
-    let mut rings = outer_rings(&stack.cut(y), DUST, |p| DVec2::new(p.x, p.z));
+fn cut(stack: &SectionStack, y: f64, gaps: Gaps) -> Level {
+    let mut rings = outer_rings(&stack.cut(y), DUST, gaps, |p| DVec2::new(p.x, p.z));
     rings.retain(|r| r.area > 100.0);
     Level { y, rings }
 }

@@ -1,17 +1,19 @@
 //! Horizontal girths of the trunk, the neck and the armholes.
 
 use mesh_kernel::glam::{DVec2, DVec3};
+use mesh_kernel::query::plane_section;
 use rayon::prelude::*;
 
-use super::figure::{Figure, Level, Side, ramp};
+use super::figure::{Figure, Level, Side};
 use super::marks::Marks;
 use super::normals::NormalField;
-use super::ring::{Ring, depth_at, outer_rings, perimeter};
-use super::slicer::SectionStack;
+use super::ring::{Gaps, Ring, depth_at, outer_rings, perimeter};
 use crate::model::{FeatureCurve, Features};
 
 /// Spacing of the points of closed curves, millimetres.
 const SPACING: f64 = 6.0;
+/// How far the plane of the neck girth leans forward, degrees.
+const NECK_TILT: f64 = 24.0;
 
 /// Heights of the trunk's girths.
 #[derive(Clone, Copy, Debug)]
@@ -197,27 +199,21 @@ impl TiltedPlane {
     }
 }
 
-/// Smallest girth of the neck, in planes that lean forward with it.
+/// Neck girth: below the larynx, in a plane that leans forward with the neck.
 fn neck(figure: &Figure<'_>, marks: &Marks, field: &NormalField) -> Option<FeatureCurve> {
-    let tilt = 20.0_f64.to_radians();
+    let tilt = NECK_TILT.to_radians();
     let plane = TiltedPlane::new(DVec3::new(0.0, tilt.cos(), tilt.sin()));
-    let stack = SectionStack::new(figure.mesh, plane.normal);
-    let middle = (marks.nape + marks.front_neck) / 2.0;
-    let base = middle.dot(plane.normal);
-    let s = marks.stature;
-    let mut best: Option<(f64, f64, Ring)> = None;
-    for k in 0..14 {
-        let above = (0.010 + 0.003 * f64::from(k)) * s;
-        let inside = plane.flat(middle + plane.normal * above);
-        let rings = outer_rings(&stack.cut(base + above), 25.0, |p| plane.flat(p));
-        let Some(ring) = rings.into_iter().find(|r| r.contains(inside)) else { continue };
-        let tape = ring.tape();
-        if best.as_ref().is_none_or(|b| tape < b.0) {
-            best = Some((tape, base + above, ring));
-        }
-    }
-    let (_, at, ring) = best?;
-    let points = from_front(&ring.points, SPACING).into_iter().map(|p| plane.place(p, at)).collect();
+    let mut centre = (marks.nape + marks.front_neck) / 2.0;
+    let above = marks.nape.y + 0.020 * marks.stature;
+    // A form may be cut off below: then just under its neck plate, whose front edge the leaning plane meets first.
+    let depth = (marks.front_neck.z - marks.nape.z) / 2.0;
+    centre.y = above.min(figure.height - depth * tilt.tan() - 4.0);
+    let section = plane_section(figure.mesh, centre, plane.normal);
+    let rings = outer_rings(&section, 25.0, Gaps::Join, |p| plane.flat(p));
+    let inside = plane.flat(centre);
+    let ring = rings.into_iter().find(|r| r.contains(inside))?;
+    let height = centre.dot(plane.normal);
+    let points = from_front(&ring.points, SPACING).into_iter().map(|p| plane.place(p, height)).collect();
     Some(closed(points, plane.normal, field))
 }
 
@@ -294,8 +290,7 @@ fn armhole(figure: &Figure<'_>, marks: &Marks, side: Side, field: &NormalField) 
     let middle = (top + bottom) / 2.0;
     let front = down.cross(out) * side.sign();
     let flat = |p: DVec3| DVec2::new((p - middle).dot(front), (p - middle).dot(-down));
-    let stack = SectionStack::new(figure.mesh, out);
-    let rings = outer_rings(&stack.cut(middle.dot(out)), 25.0, flat);
+    let rings = outer_rings(&plane_section(figure.mesh, middle, out), 25.0, Gaps::Join, flat);
     let reach = top.distance(bottom) / 2.0;
     // Radial about the middle; below the armpit the trunk's side is cut off at the armpit.
     let count = 48;
@@ -305,10 +300,7 @@ fn armhole(figure: &Figure<'_>, marks: &Marks, side: Side, field: &NormalField) 
             let d = DVec2::new(turn.sin(), turn.cos());
             let hit = rings
                 .iter()
-                .filter_map(|r| {
-                    let level = Level { y: 0.0, rings: vec![r.clone()] };
-                    ray_any(&level.rings[0], d)
-                })
+                .filter_map(|r| ray_any(r, d))
                 .reduce(f64::min);
             let under = if d.y < 0.0 { reach / -d.y } else { f64::INFINITY };
             hit.unwrap_or(reach).min(under).min(1.6 * reach).max(0.35 * reach)
@@ -326,7 +318,7 @@ fn armhole(figure: &Figure<'_>, marks: &Marks, side: Side, field: &NormalField) 
     let normals = points
         .par_iter()
         .map(|p| {
-            let hint = (*p - middle).normalize_or(DVec3::Y) + out * ramp(0.0, 1.0, 0.5);
+            let hint = (*p - middle).normalize_or(DVec3::Y) + out * 0.5;
             field.at(*p, hint)
         })
         .collect();

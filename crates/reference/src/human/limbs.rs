@@ -3,15 +3,15 @@
 use std::collections::VecDeque;
 
 use mesh_kernel::TriMesh;
-use mesh_kernel::glam::DVec3;
+use mesh_kernel::glam::{DVec2, DVec3};
+use mesh_kernel::query::plane_section;
 
 use super::figure::{Figure, Side, smooth};
 use super::girths::{TiltedPlane, closed, from_front};
 use super::marks::Marks;
 use super::normals::NormalField;
-use super::ring::{Ring, outer_rings};
-use super::slicer::SectionStack;
-use crate::model::Features;
+use super::ring::{Gaps, Ring, depth_at, outer_rings};
+use crate::model::{FeaturePoint, Features};
 
 /// Spacing of the points of limb girths, millimetres.
 const SPACING: f64 = 5.0;
@@ -66,28 +66,31 @@ fn leg(figure: &Figure<'_>, marks: &Marks, side: Side, field: &NormalField, feat
         let points = points.into_iter().map(|p| plane.place(p + middle, at)).collect();
         features.curves.insert(side.name(what), closed(points, plane.normal, field));
         if what != "thigh" {
-            features.points.insert(side.name(what), front_of(&ring, &plane, at, field));
+            // The kneecap, the front of the ankle.
+            let place = place_of(&ring, &plane, at, 1, field);
+            features.points.extend(place.map(|p| (side.name(what), p)));
         }
     }
 }
 
 /// The outline with its middle at the origin.
-fn shifted(ring: &Ring) -> Vec<mesh_kernel::glam::DVec2> {
+fn shifted(ring: &Ring) -> Vec<DVec2> {
     ring.points.iter().map(|p| *p - ring.centroid).collect()
 }
 
-fn front_of(ring: &Ring, plane: &TiltedPlane, at: f64, field: &NormalField) -> crate::model::FeaturePoint {
+/// The place of a girth straight before its middle (1) or behind it (0).
+fn place_of(ring: &Ring, plane: &TiltedPlane, at: f64, front: usize, field: &NormalField) -> Option<FeaturePoint> {
     let middle = plane.place(ring.centroid, at);
-    let points = from_front(&shifted(ring), SPACING);
-    let front = plane.place(points[0] + ring.centroid, at);
-    field.point(front, front - middle)
+    let depth = depth_at(&shifted(ring), 0.0)?[front];
+    let place = plane.place(DVec2::new(0.0, depth) + ring.centroid, at);
+    Some(field.point(place, place - middle))
 }
 
 /// The outline around a centre in the plane square to an axis.
 fn around(mesh: &TriMesh, centre: DVec3, axis: DVec3) -> Option<(Ring, TiltedPlane, f64)> {
     let plane = TiltedPlane::new(axis);
     let at = centre.dot(axis);
-    let rings = outer_rings(&SectionStack::new(mesh, axis).cut(at), 20.0, |p| plane.flat(p));
+    let rings = outer_rings(&plane_section(mesh, centre, axis), 20.0, Gaps::Join, |p| plane.flat(p));
     let inside = plane.flat(centre);
     let ring = rings.iter().position(|r| r.contains(inside))?;
     rings.into_iter().nth(ring).map(|r| (r, plane, at))
@@ -152,7 +155,7 @@ fn arm(figure: &Figure<'_>, marks: &Marks, side: Side, field: &NormalField, feat
     // The upper arm is measured just below the armpit, square to the arm.
     let upper = {
         let direction = (at(elbow) - at(0.1)).normalize_or(DVec3::X);
-        let along = (armpit - first).dot(direction) + 0.022 * marks.stature;
+        let along = (armpit - first).dot(direction) + 0.052 * marks.stature;
         let centre = (0..=60)
             .map(|k| at(elbow * f64::from(k) / 60.0))
             .min_by(|a, b| ((*a - first).dot(direction) - along).abs().total_cmp(&((*b - first).dot(direction) - along).abs()))
@@ -165,7 +168,9 @@ fn arm(figure: &Figure<'_>, marks: &Marks, side: Side, field: &NormalField, feat
         let points = points.into_iter().map(|p| plane.place(p + ring.centroid, height)).collect();
         features.curves.insert(side.name(what), closed(points, plane.normal, field));
         if mark {
-            features.points.insert(side.name(what), front_of(&ring, &plane, height, field));
+            // The point of the elbow, the back of the wrist.
+            let place = place_of(&ring, &plane, height, 0, field);
+            features.points.extend(place.map(|p| (side.name(what), p)));
         }
     };
     add("upper_arm", upper, false);

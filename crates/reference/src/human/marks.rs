@@ -1,10 +1,10 @@
 //! Landmarks of trunk, neck and shoulders.
 
 use mesh_kernel::glam::{DVec2, DVec3};
+use mesh_kernel::query::SectionStack;
 
 use super::figure::{Figure, Level, Side, ramp, smooth};
 use super::ring::{Ring, breadth_at, depth_at};
-use super::slicer::SectionStack;
 
 /// Landmarks in the canonical frame. Pairs are left, right.
 #[derive(Clone, Debug)]
@@ -80,13 +80,19 @@ fn crotch(figure: &Figure<'_>, warnings: &mut Vec<String>) -> (DVec3, bool) {
     }
     let mut legs = i > figure.index(0.36 * h);
     let mut y = figure.levels[i].y;
+    let mut z = None;
     if legs {
-        let (mut low, mut high) = (figure.levels[i - 1].y, y);
-        for _ in 0..5 {
-            let middle = (low + high) / 2.0;
-            if joined(&figure.at(middle)) { high = middle } else { low = middle }
+        y = lowest(figure.levels[i - 1].y, y, |y| joined(&figure.at(y)));
+        z = figure.midline(y).map(|[a, b]| (a + b) / 2.0);
+        if !joined(&figure.parted_at(y + 2.0)) {
+            // A hole in the skin: the legs join somewhere between the lowest place where its rims may be bridged and the
+            // lowest place where nothing is missing.
+            let above = figure.between(y, y + 0.05 * h).iter().find(|l| joined(&figure.parted_at(l.y)));
+            if let Some(l) = above {
+                warnings.push("the skin has a hole at the crotch: its height is an estimate".to_owned());
+                y = (y + l.y) / 2.0;
+            }
         }
-        y = high;
         if y < 0.42 * h {
             // Thighs that touch join lower than the legs do; the bridge between them is shallower than the pelvis.
             let deep = |l: &Level| {
@@ -102,8 +108,21 @@ fn crotch(figure: &Figure<'_>, warnings: &mut Vec<String>) -> (DVec3, bool) {
         y = 0.475 * h;
         warnings.push("the legs do not part: the crotch was put by proportion".to_owned());
     }
-    let z = figure.midline(y + 0.003 * h).map_or(0.0, |[a, b]| (a + b) / 2.0);
+    let z = z.or_else(|| figure.midline(y + 0.003 * h).map(|[a, b]| (a + b) / 2.0)).unwrap_or(0.0);
     (DVec3::new(0.0, y, z), legs)
+}
+
+/// The lowest height between two at which a test begins to hold, by bisection.
+fn lowest(mut fails: f64, mut holds: f64, test: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..5 {
+        let middle = (fails + holds) / 2.0;
+        if test(middle) {
+            holds = middle;
+        } else {
+            fails = middle;
+        }
+    }
+    holds
 }
 
 /// Half breadth of the trunk (with the arm, where that has joined it) on one side.
@@ -125,16 +144,14 @@ fn armpit(figure: &Figure<'_>, side: Side) -> Option<DVec3> {
         next - here > jump && soon - here > 0.028 * h
     })?;
     let below = breadth[at]?;
-    let (mut y0, mut y1) = (figure.levels[low + at].y, figure.levels[low + at + 1].y);
-    for _ in 0..5 {
-        let middle = (y0 + y1) / 2.0;
-        if half_breadth(&figure.at(middle), side).is_some_and(|b| b - below > 0.6 * jump) {
-            y1 = middle;
-        } else {
-            y0 = middle;
-        }
+    let taken_in = |l: &Level| half_breadth(l, side).is_some_and(|b| b - below > 0.6 * jump);
+    let mut y = lowest(figure.levels[low + at].y, figure.levels[low + at + 1].y, |y| taken_in(&figure.at(y)));
+    if !taken_in(&figure.parted_at(y + 2.0)) {
+        // A hole in the skin, whose rims may have been bridged too low.
+        let above = figure.between(y, y + 0.04 * h).iter().find(|l| taken_in(&figure.parted_at(l.y)));
+        y += above.map_or(0.0, |l| 0.75 * (l.y - y));
     }
-    let level = figure.at(y0);
+    let level = figure.parted_at(y - 0.003 * h);
     let trunk = level.trunk()?;
     let s = side.sign();
     let arm = level
@@ -142,11 +159,8 @@ fn armpit(figure: &Figure<'_>, side: Side) -> Option<DVec3> {
         .iter()
         .filter(|r| r.centroid.x * s > 0.5 * below && !std::ptr::eq(*r, trunk) && r.area > 300.0)
         .min_by(|a, b| (a.centroid.x * s).total_cmp(&(b.centroid.x * s)));
-    let spot = match arm.map(|a| nearest_pair(trunk, a)) {
-        Some((p, q)) if p.distance(q) < 0.03 * h => (p + q) / 2.0,
-        _ => extreme(trunk, side),
-    };
-    Some(DVec3::new(spot.x, y0, spot.y))
+    let spot = arm.and_then(|a| between(trunk, a, 0.03 * h)).unwrap_or_else(|| extreme(trunk, side));
+    Some(DVec3::new(spot.x, y, spot.y))
 }
 
 /// Outermost place of an outline, averaged over the outermost 2 mm.
@@ -157,22 +171,41 @@ fn extreme(ring: &Ring, side: Side) -> DVec2 {
     DVec2::new(far * s, near.iter().map(|p| p.y).sum::<f64>() / near.len() as f64)
 }
 
-fn nearest_pair(a: &Ring, b: &Ring) -> (DVec2, DVec2) {
-    let mut best = (f64::INFINITY, DVec2::ZERO, DVec2::ZERO);
-    for (from, onto, swap) in [(a, b, false), (b, a, true)] {
-        for p in &from.points {
-            for i in 0..onto.points.len() {
-                let (s, t) = (onto.points[i], onto.points[(i + 1) % onto.points.len()]);
-                let d = t - s;
-                let q = s + d * ((*p - s).dot(d) / d.length_squared().max(1e-12)).clamp(0.0, 1.0);
-                let distance = p.distance(q);
-                if distance < best.0 {
-                    best = if swap { (distance, q, *p) } else { (distance, *p, q) };
+/// Middle of the gap between trunk and arm, averaged over where it is hardly wider than at its narrowest; `None` where
+/// it is wider than `widest`.
+fn between(trunk: &Ring, arm: &Ring, widest: f64) -> Option<DVec2> {
+    let onto = |p: DVec2, ring: &Ring| {
+        let n = ring.points.len();
+        (0..n)
+            .map(|i| {
+                let (s, d) = (ring.points[i], ring.points[(i + 1) % n] - ring.points[i]);
+                s + d * ((p - s).dot(d) / d.length_squared().max(1e-12)).clamp(0.0, 1.0)
+            })
+            .min_by(|a, b| a.distance_squared(p).total_cmp(&b.distance_squared(p)))
+    };
+    let near = 2.0 * widest;
+    let mut pairs: Vec<(f64, DVec2)> = Vec::new();
+    for (from, to) in [(trunk, arm), (arm, trunk)] {
+        for i in 0..from.points.len() {
+            let (a, b) = (from.points[i], from.points[(i + 1) % from.points.len()]);
+            let pieces = (a.distance(b) / 3.0).ceil().clamp(1.0, 64.0) as u32;
+            for k in 0..pieces {
+                let p = a.lerp(b, f64::from(k) / f64::from(pieces));
+                if p.x < to.lo.x - near || p.x > to.hi.x + near {
+                    continue;
                 }
+                pairs.extend(onto(p, to).map(|q| (p.distance(q), (p + q) / 2.0)));
             }
         }
     }
-    (best.1, best.2)
+    let least = pairs.iter().map(|p| p.0).reduce(f64::min).filter(|d| *d < widest)?;
+    let (mut weight, mut sum) = (0.0, DVec2::ZERO);
+    for (gap, middle) in pairs {
+        let w = (0.4 * widest - (gap - least)).max(0.0);
+        weight += w;
+        sum += middle * w;
+    }
+    Some(sum / weight)
 }
 
 /// A head is broader than the neck below it.
@@ -353,7 +386,7 @@ fn navel(figure: &Figure<'_>, crotch_y: f64, armpit_y: f64, stature: f64) -> DVe
     let mut best = (1.2, usual);
     for i in 0..profile.y.len() {
         let dimple = broad[i] - profile.front[i];
-        if (profile.y[i] - usual).abs() < 0.03 * stature && dimple > best.0 {
+        if (profile.y[i] - usual).abs() < 0.018 * stature && dimple > best.0 {
             best = (dimple, profile.y[i]);
         }
     }

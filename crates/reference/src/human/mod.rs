@@ -10,7 +10,6 @@ mod limbs;
 mod marks;
 mod normals;
 mod ring;
-mod slicer;
 mod upright;
 mod verticals;
 

@@ -1,8 +1,10 @@
 //! Outlines in a horizontal plane: gaps closed, inner pockets dropped, hulls, extreme points.
 
 use mesh_kernel::glam::{DVec2, DVec3};
+use mesh_kernel::query::SectionLoop;
 
-use super::slicer::SectionLoop;
+/// Most open chains of one section that are joined.
+const MOST_CHAINS: usize = 48;
 
 /// A closed outline in the plane; `x` is the body's left, `y` its front. Runs anticlockwise seen from above, that is
 /// from the front over the left to the back.
@@ -133,9 +135,23 @@ pub(crate) fn perimeter(points: &[DVec2]) -> f64 {
     (0..points.len()).map(|i| points[i].distance(points[(i + 1) % points.len()])).sum()
 }
 
-/// Outer outlines of a section, largest first. Open chains (the skin has a hole there) are joined end to nearest end;
-/// chains shorter than `dust` and outlines inside others (mouth, eye sockets) are dropped.
-pub(crate) fn outer_rings(section: &[SectionLoop], dust: f64, flat: impl Fn(DVec3) -> DVec2) -> Vec<Ring> {
+/// How chains that end at holes of the skin are closed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Gaps {
+    /// The two nearest free ends are joined, again and again.
+    Join,
+    /// Every chain closes on itself: nothing is taken for joined that is not seen to be.
+    Part,
+}
+
+/// Outer outlines of a section, largest first. Chains shorter than `dust` and outlines inside others (mouth, eye
+/// sockets) are dropped.
+pub(crate) fn outer_rings(
+    section: &[SectionLoop],
+    dust: f64,
+    gaps: Gaps,
+    flat: impl Fn(DVec3) -> DVec2,
+) -> Vec<Ring> {
     let mut rings = Vec::new();
     let mut open: Vec<Vec<DVec2>> = Vec::new();
     for l in section {
@@ -146,7 +162,11 @@ pub(crate) fn outer_rings(section: &[SectionLoop], dust: f64, flat: impl Fn(DVec
             open.push(points);
         }
     }
-    rings.extend(close_chains(open).into_iter().filter_map(Ring::new));
+    let whole = match gaps {
+        Gaps::Join => join_chains(open),
+        Gaps::Part => open,
+    };
+    rings.extend(whole.into_iter().filter_map(Ring::new));
     rings.sort_by(|a, b| b.area.total_cmp(&a.area));
     let mut outer: Vec<Ring> = Vec::new();
     for r in rings {
@@ -159,7 +179,10 @@ pub(crate) fn outer_rings(section: &[SectionLoop], dust: f64, flat: impl Fn(DVec
 
 /// Joins the two nearest free ends again and again. A chain's own ends count as nearer by a third: a limb with a hole
 /// in its side closes on itself rather than on its neighbour.
-fn close_chains(mut open: Vec<Vec<DVec2>>) -> Vec<Vec<DVec2>> {
+fn join_chains(mut open: Vec<Vec<DVec2>>) -> Vec<Vec<DVec2>> {
+    // Torn meshes have crumbs without number; the longest chains carry the outline.
+    open.sort_by(|a, b| b.len().cmp(&a.len()));
+    open.truncate(MOST_CHAINS);
     let mut done = Vec::new();
     while !open.is_empty() {
         let mut best = (f64::INFINITY, 0, 0, false, false);

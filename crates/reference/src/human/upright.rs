@@ -6,11 +6,11 @@
 
 use mesh_kernel::TriMesh;
 use mesh_kernel::glam::{DVec2, DVec3};
+use mesh_kernel::query::SectionStack;
 use rayon::prelude::*;
 
 use super::error::HumanError;
-use super::ring::{Ring, outer_rings};
-use super::slicer::SectionStack;
+use super::ring::{Gaps, Ring, outer_rings};
 use super::{HumanOptions, Unit};
 
 /// Levels of the coarse look.
@@ -103,8 +103,9 @@ fn look(mesh: &TriMesh, axis: DVec3, low: f64, high: f64) -> [Look; 2] {
     let mut levels: Vec<Vec<Ring>> = (0..LEVELS)
         .map(|i| {
             let at = low + height * (i as f64 + 0.5) / LEVELS as f64;
-            let mut rings =
-                outer_rings(&stack.cut(at), height * 0.008, |p| DVec2::new(p.dot(left), p.dot(front)) / height);
+            let mut rings = outer_rings(&stack.cut(at), 0.008, Gaps::Join, |p| {
+                DVec2::new(p.dot(left), p.dot(front)) / height
+            });
             rings.retain(|r| r.area > 1e-4);
             rings
         })

@@ -106,11 +106,7 @@ impl Lines<'_> {
     fn centre(&self, front: bool, features: &mut Features) {
         let start = if front { self.marks.front_neck } else { self.marks.nape };
         // The cleft begins above the hip; in front the taut outline differs only near the crotch.
-        let (from, to) = if front {
-            (self.levels.hip, self.marks.crotch.y + 5.0)
-        } else {
-            (self.levels.high_hip, self.levels.hip)
-        };
+        let (from, to) = (self.levels.high_hip, self.levels.hip);
         let points = self.down(start, |o| {
             let value = |p: &[DVec2]| depth_at(p, 0.0).map(|d| d[usize::from(front)]);
             let taut = value(&o.taut)?;
