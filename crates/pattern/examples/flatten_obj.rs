@@ -15,14 +15,13 @@ fn main() {
     }
     let input = pattern::input_of_mesh(&m, &Default::default()).unwrap();
     let options = pattern::PatternOptions { match_seams: args.get(3).is_none_or(|s| s != "free"), ..Default::default() };
-    let t = std::time::Instant::now();
-    let (flats, reports, notes) = pattern::flat_only(&input, &options).unwrap();
+    let t = std::time::Instant::now(); let pat = pattern::make(&input, &options).unwrap();
     println!("{} ms {:.1}", args[1], t.elapsed().as_secs_f64() * 1e3);
-    for r in &reports { println!("{r:?}"); }
-    for n in &notes { println!("{n}"); }
+    for r in &pat.pieces { println!("{:?}", r.report); }
+    for n in &pat.warnings { println!("{n}"); } for s in &pat.seams { println!("{s:?}"); }
     use std::fmt::Write;
     let mut out = String::new();
-    let f = &flats[0];
+    let f = &pat.flats[0];
     for n in &f.node_of { let p = input.patches[0].positions[*n as usize]; writeln!(out, "v {} {} {}", p.x, p.y, p.z).unwrap(); }
     for n in &f.uv { writeln!(out, "vt {} {}", n.x, n.y).unwrap(); }
     for t in &f.faces { writeln!(out, "f {0}/{0} {1}/{1} {2}/{2}", t[0] + 1, t[1] + 1, t[2] + 1).unwrap(); }

@@ -144,8 +144,12 @@ pub struct Notch {
     pub inward: DVec2,
     /// Depth, in millimetres.
     pub depth: f64,
+    /// The cuts to make, from the cut line inward: one, or two side by side.
+    pub slits: Vec<[DVec2; 2]>,
     /// Seam on which it was matched with the other sides.
     pub seam: Option<SeamRef>,
+    /// Name of that seam; empty without.
+    pub seam_name: String,
     /// Distance from the seam's start along the sewing line, in millimetres.
     pub along: Option<f64>,
 }
