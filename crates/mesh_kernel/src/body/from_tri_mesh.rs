@@ -90,7 +90,7 @@ impl Body {
         // Corners of a face that are one node of the surface.
         let copies = Copies::new(mesh, &groups, &edges, &uses, &joint_edges);
         let surfaces = make_surfaces(mesh, &groups, &copies, &edges, &uses)?;
-        let mut joints = trace_joints(mesh, &groups, &edges, &uses, &joint_edges, &copies, &surfaces);
+        let mut joints = trace_joints(mesh, &groups, &edges, &uses, &surfaces);
         joints.extend(touching_nodes(mesh, &groups, &copies, &surfaces, &joints));
         Self::assemble(surfaces, joints)
     }
@@ -323,8 +323,6 @@ fn trace_joints(
     groups: &Groups,
     edges: &MeshEdges,
     uses: &Uses,
-    joint_edges: &[bool],
-    copies: &Copies,
     surfaces: &[Surface],
 ) -> Vec<RunJoint> {
     let mut at_node: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
@@ -361,7 +359,7 @@ fn trace_joints(
         distinct.dedup();
         (distinct.len() == out.len()).then_some(out)
     };
-    let mut done = vec![false; joint_edges.len()];
+    let mut done = vec![false; edges.nodes.len()];
     let mut joints = Vec::new();
     for (&seed, list) in uses {
         if done[seed as usize] {

@@ -33,11 +33,15 @@ mod attribute;
 mod build;
 mod carry;
 mod chain;
+mod complex;
+mod counts;
 mod from_tri_mesh;
+mod homology;
 mod ids;
 mod joint;
 mod radial;
 mod radial_order;
+mod shells;
 mod split_all;
 mod surface;
 mod weld;
@@ -46,6 +50,7 @@ pub use adjacency::EdgeIndex;
 pub use attribute::{AttributeEdge, AttributeError, AttributeNode};
 pub use build::{BuildError, ChainSpec, JOINT_SNAP, JointLabel, JointSpec, SurfaceSpec};
 pub use chain::{Chain, Loop};
+pub use counts::{Counts, FreeEdge};
 pub use ids::{
     AttributeEdgeId, AttributeNodeId, ChainId, DirectedEdge, EdgeId, FaceId, JointId, LoopId, NONE, NodeId,
     SurfaceId,

@@ -8,7 +8,7 @@ mod error;
 mod number;
 mod obj;
 mod place;
-mod weld;
+pub(crate) mod weld;
 
 use std::fmt;
 use std::path::Path;

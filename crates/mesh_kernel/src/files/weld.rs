@@ -1,7 +1,7 @@
 //! Numbering of distinct keys in the order in which they first appear.
 
 /// A hash table from keys of `N` words to running numbers (open addressing, linear probing).
-pub(super) struct Welder<const N: usize> {
+pub(crate) struct Welder<const N: usize> {
     slots: Vec<u32>,
     keys: Vec<[u64; N]>,
 }
@@ -10,7 +10,7 @@ const EMPTY: u32 = u32::MAX;
 
 impl<const N: usize> Welder<N> {
     /// An empty table with room for about `expected` keys.
-    pub(super) fn with_capacity(expected: usize) -> Self {
+    pub(crate) fn with_capacity(expected: usize) -> Self {
         Self {
             slots: vec![EMPTY; (expected * 2).next_power_of_two().max(16)],
             keys: Vec::with_capacity(expected),
@@ -19,7 +19,7 @@ impl<const N: usize> Welder<N> {
 
     /// The number of `key`, and whether it is new.
     #[inline]
-    pub(super) fn number(&mut self, key: [u64; N]) -> (u32, bool) {
+    pub(crate) fn number(&mut self, key: [u64; N]) -> (u32, bool) {
         if self.keys.len() * 2 > self.slots.len() {
             self.grow();
         }
@@ -67,6 +67,6 @@ fn hash<const N: usize>(key: &[u64; N]) -> u64 {
 
 /// A coordinate as a key: equal numbers have equal keys (both zeros are one).
 #[inline]
-pub(super) fn key(value: f64) -> u64 {
+pub(crate) fn key(value: f64) -> u64 {
     (value + 0.0).to_bits()
 }

@@ -62,10 +62,6 @@ impl ClosestPoint {
         (distance <= max).then(|| Closest { point, face: self.bvh.order[slot], barycentric, distance })
     }
 
-    pub(super) fn bvh(&self) -> &Bvh {
-        &self.bvh
-    }
-
     fn find(&self, p: DVec3, max: f64) -> Option<(usize, [f64; 3], DVec3)> {
         let local = p - self.bvh.origin;
         if !local.is_finite() || max.is_nan() || max < 0.0 || self.triangles.is_empty() {
