@@ -4,9 +4,14 @@
 //! whose nodes are stored relative to the features of a body. [`regenerate`](regenerate()) rebuilds it on any body with the same
 //! features.
 
+pub mod encoding;
 pub mod error;
+pub mod fairing;
 pub mod format;
 mod layout;
+pub mod lines;
+mod place;
+mod skin;
 
 pub use error::TemplateError;
 
