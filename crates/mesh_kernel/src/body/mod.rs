@@ -44,6 +44,7 @@ mod radial;
 mod radial_order;
 mod shells;
 mod split_all;
+mod split_face;
 mod surface;
 mod weld;
 
@@ -59,6 +60,7 @@ pub use ids::{
 };
 pub use joint::{Joint, JointUse, Sheet, Side};
 pub use split_all::{SplitError, SplitMap, SurfaceSplit};
+pub use split_face::{FaceSplit, SplitEdge, SplitFaceError};
 pub use surface::{Star, Surface};
 pub use weld::Weld;
 
