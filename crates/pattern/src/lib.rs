@@ -17,6 +17,7 @@
 //! ```
 
 mod error;
+mod files;
 mod flatten;
 mod input;
 mod mesh;
@@ -24,6 +25,7 @@ mod pattern;
 mod pieces;
 
 pub use error::PatternError;
+pub use files::*;
 pub use input::*;
 pub use mesh::{FlattenMeshOptions, input_of_mesh};
 pub use pattern::*;

@@ -56,7 +56,6 @@ pub(crate) fn minimise(sheet: &mut Sheet, stop: Stop) -> Result<Outcome, NotDefi
         outcome.steps += 1;
         assemble(sheet, &mut slope, !near, pins);
         if sheet.system.factorise().is_err() {
-            near = false;
             assemble(sheet, &mut slope, true, pins);
             if sheet.system.factorise().is_err() {
                 return Err(NotDefinite);

@@ -14,11 +14,12 @@ struct Step {
     y: f64,
 }
 
-/// Lays out the pieces' cut lines without overlap. O(n²) in the number of pieces.
-pub(crate) fn lay_out(pieces: &[Piece], fabric_width: f64, gap: f64) -> Layout {
+/// Lays out the pieces' cut lines without overlap; a box of size `reserved` at the origin stays free. O(n²) in the
+/// number of pieces.
+pub(crate) fn lay_out(pieces: &[Piece], fabric_width: f64, gap: f64, reserved: DVec2) -> Layout {
     let boxes: Vec<[DVec2; 2]> =
         pieces.iter().map(|p| bounds(p.cut.iter().flat_map(|c| c.points.iter().copied()))).collect();
-    let widest = boxes.iter().map(|[l, h]| h.x - l.x).fold(0.0, f64::max);
+    let widest = boxes.iter().map(|[l, h]| h.x - l.x).fold(reserved.x, f64::max);
     let width = fabric_width.max(widest + 2.0 * gap);
     let mut order: Vec<usize> = (0..pieces.len()).collect();
     order.sort_by(|&a, &b| {
@@ -28,6 +29,10 @@ pub(crate) fn lay_out(pieces: &[Piece], fabric_width: f64, gap: f64) -> Layout {
     let mut skyline = vec![Step { x: gap, width: width - gap, y: gap }];
     let mut offsets = vec![DVec2::ZERO; pieces.len()];
     let mut length = gap;
+    if reserved != DVec2::ZERO {
+        raise(&mut skyline, gap, reserved.x + gap, reserved.y + 2.0 * gap);
+        length += reserved.y + gap;
+    }
     for i in order {
         let size = boxes[i][1] - boxes[i][0] + DVec2::splat(gap);
         let mut best: Option<(f64, f64)> = None;

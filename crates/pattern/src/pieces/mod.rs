@@ -16,7 +16,10 @@ use crate::{
     flatten::{FlatPatch, Flattened, topology::NONE},
 };
 
-pub(crate) use interior::bounds;
+pub(crate) use self::{
+    interior::{bounds, inside},
+    layout::lay_out,
+};
 
 /// Checks the numbers of the options and piece specifications.
 pub(crate) fn check(input: &PatternInput, options: &PatternOptions) -> Result<(), PatternError> {
@@ -68,7 +71,7 @@ pub(crate) fn make(input: &PatternInput, mut flat: Flattened, options: &PatternO
     for seam in seams.iter().filter(|s| s.mismatch > 0.5) {
         warnings.push(format!("seam {:?}: its sides differ by {:.2} mm", seam.name, seam.mismatch));
     }
-    let layout = layout::lay_out(&pieces, options.fabric_width_mm, options.layout_gap_mm);
+    let layout = lay_out(&pieces, options.fabric_width_mm, options.layout_gap_mm, DVec2::ZERO);
     let flats: Vec<Flat> = flat.patches.into_iter().map(|p| p.flat).collect();
     Pattern { pieces, flats, seams, layout, warnings }
 }
