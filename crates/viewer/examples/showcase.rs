@@ -9,9 +9,9 @@ use std::path::Path;
 
 use glam::{DVec2, DVec3};
 use viewer::{
-    Align, Camera, Color, ColorBar, ColorMap, Drawing2d, Hidden, Item2d, KeySign, Label, Legend, LegendKey, Length,
-    Lens, MontageOptions, PageOptions, Paint, Pen, RenderOptions, Reverse, Scale, Scene, SceneLine, SceneMesh,
-    ScenePoint, View, cloth_color, montage, render,
+    Align, Camera, Color, ColorBar, ColorMap, Drawing2d, Hidden, Item2d, KeySign, Label, Legend, LegendKey,
+    Length, Lens, MontageOptions, PageOptions, Paint, Pen, RenderOptions, Reverse, Scale, Scene, SceneLine,
+    SceneMesh, ScenePoint, View, cloth_color, montage, render,
 };
 
 /// Radius of the form (mm) at a height (mm): hip, waist, bust, neck.
@@ -55,7 +55,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let out = std::env::args().nth(1).ok_or("showcase OUT_DIR")?;
     let out = Path::new(&out);
     let form = SceneMesh { reverse: Reverse::Same, ..patch([0.0, TAU], [0.0, 700.0], 0.0, Color::SKIN) };
-    let mut garment = Scene { meshes: vec![form.clone()], title: Some("Panels over a form".into()), ..Scene::default() };
+    let mut garment =
+        Scene { meshes: vec![form.clone()], title: Some("Panels over a form".into()), ..Scene::default() };
     for i in 0..5 {
         let (from, to) = (f64::from(i) * TAU / 6.0, f64::from(i + 1) * TAU / 6.0);
         garment.meshes.push(patch([from, to], [60.0, 520.0], 6.0, cloth_color(i as usize)));
@@ -65,10 +66,19 @@ fn main() -> Result<(), Box<dyn Error>> {
             1.6,
         ));
     }
-    garment.lines.push(SceneLine { hidden: Hidden::Dashed, ..SceneLine::new(ring(360.0, 6.0), Color::ACCENT, 1.8) });
-    for (name, angle, y) in [("bust", 0.6, 480.0), ("waist", 0.0, 360.0), ("side", PI / 2.0, 420.0), ("nape", PI, 620.0)] {
+    garment
+        .lines
+        .push(SceneLine { hidden: Hidden::Dashed, ..SceneLine::new(ring(360.0, 6.0), Color::ACCENT, 1.8) });
+    for (name, angle, y) in
+        [("bust", 0.6, 480.0), ("waist", 0.0, 360.0), ("side", PI / 2.0, 420.0), ("nape", PI, 620.0)]
+    {
         let position = place(angle, y, 6.0);
-        garment.points.push(ScenePoint { position, color: Color::ACCENT, diameter: 8.0, hidden: Hidden::Faint });
+        garment.points.push(ScenePoint {
+            position,
+            color: Color::ACCENT,
+            diameter: 8.0,
+            hidden: Hidden::Faint,
+        });
         garment.labels.push(Label { position, text: name.into(), color: Color::INK, hidden: Hidden::Faint });
     }
     garment.legend = Some(Legend {
@@ -85,7 +95,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     std::fs::write(out.join("garment.png"), first.to_png())?;
 
     let mut data = Scene { title: Some("Stretch".into()), ..Scene::default() };
-    let values: Vec<f64> = form.positions.iter().map(|p| 2.5 * (p.x / 60.0).sin() * (p.y / 120.0).cos()).collect();
+    let values: Vec<f64> =
+        form.positions.iter().map(|p| 2.5 * (p.x / 60.0).sin() * (p.y / 120.0).cos()).collect();
     let scale = Scale::of(ColorMap::Diverging, &values);
     data.meshes.push(form.painted(Paint::NodeValues { values, scale }));
     data.legend = Some(Legend {
@@ -98,7 +109,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let third = pattern().render(&PageOptions { width: 1024, height: 768, ..PageOptions::default() })?;
     std::fs::write(out.join("pattern.png"), third.to_png())?;
-    let whole = montage(&[("garment", &first), ("data", &second), ("pattern", &third)], &MontageOptions::default())?;
+    let whole =
+        montage(&[("garment", &first), ("data", &second), ("pattern", &third)], &MontageOptions::default())?;
     std::fs::write(out.join("montage.png"), whole.to_png())?;
     Ok(())
 }
@@ -111,7 +123,8 @@ fn pattern() -> Drawing2d {
             .map(|a| DVec2::new(1.4 * r * a.cos(), r * (a.sin() + 0.25 * (2.0 * a).cos())))
             .collect()
     };
-    let hole: Vec<DVec2> = (0..24).map(|i| DVec2::from_angle(f64::from(i) / 24.0 * TAU) * 18.0 + 60.0).collect();
+    let hole: Vec<DVec2> =
+        (0..24).map(|i| DVec2::from_angle(f64::from(i) / 24.0 * TAU) * 18.0 + 60.0).collect();
     let mut items = vec![
         Item2d::Polygon { rings: vec![curve(160.0), hole], fill: cloth_color(1), opacity: 0.45 },
         Item2d::Polyline { points: curve(170.0), pen: Pen::pixels(Color::INK, 1.6) },
@@ -131,7 +144,11 @@ fn pattern() -> Drawing2d {
             fill: Color::INK,
         },
     ];
-    for (words, y, size, angle) in [("SIDE FRONT", -20.0, 16.0, 0.0), ("cut 2 · 10 mm", -42.0, 10.0, 0.0), ("grain", 0.0, 10.0, PI / 2.0)] {
+    for (words, y, size, angle) in [
+        ("SIDE FRONT", -20.0, 16.0, 0.0),
+        ("cut 2 · 10 mm", -42.0, 10.0, 0.0),
+        ("grain", 0.0, 10.0, PI / 2.0),
+    ] {
         items.push(Item2d::Text {
             at: DVec2::new(if angle == 0.0 { 90.0 } else { -6.0 }, y),
             text: words.into(),
@@ -144,8 +161,13 @@ fn pattern() -> Drawing2d {
     for (row, map) in [ColorMap::Sequential, ColorMap::Diverging, ColorMap::Ramp].into_iter().enumerate() {
         for i in 0..64 {
             let lo = DVec2::new(-240.0 + f64::from(i) * 7.5, -250.0 - 22.0 * row as f64);
-            let ring = vec![lo, lo + DVec2::new(7.6, 0.0), lo + DVec2::new(7.6, 18.0), lo + DVec2::new(0.0, 18.0)];
-            items.push(Item2d::Polygon { rings: vec![ring], fill: map.at(f64::from(i) / 63.0), opacity: 1.0 });
+            let ring =
+                vec![lo, lo + DVec2::new(7.6, 0.0), lo + DVec2::new(7.6, 18.0), lo + DVec2::new(0.0, 18.0)];
+            items.push(Item2d::Polygon {
+                rings: vec![ring],
+                fill: map.at(f64::from(i) / 63.0),
+                opacity: 1.0,
+            });
         }
     }
     for i in 0..16 {

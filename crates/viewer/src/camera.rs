@@ -112,7 +112,14 @@ impl Camera {
         };
         let back = from.try_normalize().ok_or(problem(from.length()))?;
         let right = up.cross(back).try_normalize().ok_or(problem(up.length()))?;
-        Ok(Self { target: DVec3::ZERO, back, up: back.cross(right), lens, height: 1000.0, shift: DVec2::ZERO })
+        Ok(Self {
+            target: DVec3::ZERO,
+            back,
+            up: back.cross(right),
+            lens,
+            height: 1000.0,
+            shift: DVec2::ZERO,
+        })
     }
 
     /// Moves the camera so that the whole scene is in the picture, with room for its title and legend. O(n).
@@ -136,7 +143,10 @@ impl Camera {
         self.check()?;
         let [lo, hi] = bounds;
         if !(lo.is_finite() && hi.is_finite() && lo.cmple(hi).all()) {
-            return Err(RenderError::Coordinate { what: "corner of the box to fit, index".to_owned(), index: 0 });
+            return Err(RenderError::Coordinate {
+                what: "corner of the box to fit, index".to_owned(),
+                index: 0,
+            });
         }
         let pick = |i: u32, k: u32| if i & k == 0 { lo } else { hi };
         let corners: Vec<DVec3> =
@@ -166,7 +176,8 @@ impl Camera {
                 range: "it must be a positive number of millimetres",
             });
         }
-        let skew = (self.back.length() - 1.0).abs() + (self.up.length() - 1.0).abs() + self.back.dot(self.up).abs();
+        let skew =
+            (self.back.length() - 1.0).abs() + (self.up.length() - 1.0).abs() + self.back.dot(self.up).abs();
         if skew.is_nan() || skew > 1e-6 || !self.target.is_finite() || !self.shift.is_finite() {
             return Err(RenderError::Option {
                 option: "camera directions",
@@ -186,7 +197,10 @@ impl Camera {
         );
         let right = self.right();
         let extent = |axis: DVec3| {
-            places.iter().map(|p| p.dot(axis)).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)))
+            places
+                .iter()
+                .map(|p| p.dot(axis))
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)))
         };
         let (x, y, z) = (extent(right), extent(self.up), extent(self.back));
         let middle = |(l, h): (f64, f64)| 0.5 * (l + h);
@@ -319,7 +333,6 @@ impl Projector {
         }
     }
 
-
     /// Right, up and back as vectors of the scene.
     pub(crate) fn axes(&self) -> [DVec3; 3] {
         [self.right, self.up, self.back]
@@ -328,6 +341,10 @@ impl Projector {
     /// Millimetres a pixel at a place.
     pub(crate) fn pixel_size(&self, p: DVec3) -> f64 {
         let z = self.to_camera(p).z;
-        if self.distance.is_finite() { (self.distance - z) / self.distance / self.scale } else { 1.0 / self.scale }
+        if self.distance.is_finite() {
+            (self.distance - z) / self.distance / self.scale
+        } else {
+            1.0 / self.scale
+        }
     }
 }

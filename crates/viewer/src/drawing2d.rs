@@ -159,7 +159,12 @@ impl Drawing2d {
         self.check()?;
         let [lo, hi] = match options.window {
             Some([lo, hi]) if lo.is_finite() && hi.is_finite() => [lo.min(hi), lo.max(hi)],
-            Some(_) => return Err(RenderError::Coordinate { what: "corner of the window, index".to_owned(), index: 0 }),
+            Some(_) => {
+                return Err(RenderError::Coordinate {
+                    what: "corner of the window, index".to_owned(),
+                    index: 0,
+                });
+            }
             None => self.bounds().ok_or(RenderError::Empty)?,
         };
         let size = DVec2::new(f64::from(options.width), f64::from(options.height));
@@ -197,7 +202,10 @@ impl Drawing2d {
                 Item2d::Text { at, angle, .. } => (bad(at) || !angle.is_finite()).then_some(0),
             };
             if let Some(index) = index {
-                return Err(RenderError::Coordinate { what: format!("point of drawing item {i}, index"), index });
+                return Err(RenderError::Coordinate {
+                    what: format!("point of drawing item {i}, index"),
+                    index,
+                });
             }
         }
         Ok(())

@@ -73,7 +73,12 @@ pub const MAX_MEGAPIXELS: u32 = 64;
 /// Checks a picture's size.
 pub(crate) fn check_size(width: u32, height: u32) -> Result<(), RenderError> {
     let pixels = u64::from(width) * u64::from(height);
-    if width == 0 || height == 0 || width > MAX_SIDE || height > MAX_SIDE || pixels > u64::from(MAX_MEGAPIXELS) * 1_000_000 {
+    if width == 0
+        || height == 0
+        || width > MAX_SIDE
+        || height > MAX_SIDE
+        || pixels > u64::from(MAX_MEGAPIXELS) * 1_000_000
+    {
         return Err(RenderError::Size { width, height, max_side: MAX_SIDE, max_pixels: MAX_MEGAPIXELS });
     }
     Ok(())

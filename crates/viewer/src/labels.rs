@@ -31,20 +31,28 @@ pub(crate) fn draw(image: &mut Image, scene: &Scene, depth: &Depth, options: &Re
         };
         let width = text::width(&label.text, size);
         let height = text::CAP_HEIGHT * size;
-        let inside = |b: &Box2| b[0] >= 2.0 && b[1] >= 2.0 && b[2] <= picture_width - 2.0 && b[3] <= picture_height - 2.0;
+        let inside = |b: &Box2| {
+            b[0] >= 2.0 && b[1] >= 2.0 && b[2] <= picture_width - 2.0 && b[3] <= picture_height - 2.0
+        };
         let free = |b: &Box2| {
             inside(b) && !taken.iter().any(|t| b[0] < t[2] && t[0] < b[2] && b[1] < t[3] && t[1] < b[3])
         };
         let mut choices = Vec::new();
         for ring in 0..6 {
             let gap = (7.0 + 15.0 * ring as f32) * unit;
-            for (side, rise) in [(1.0, 0.0), (-1.0, 0.0), (1.0, -1.0), (-1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)] {
+            for (side, rise) in [(1.0, 0.0), (-1.0, 0.0), (1.0, -1.0), (-1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+            {
                 let left = if side > 0.0 { at[0] + gap } else { at[0] - gap - width };
                 let middle = at[1] + rise * (gap + 0.4 * height);
                 let pad = 2.5 * unit;
                 choices.push((
                     ring,
-                    [left - pad, middle - 0.5 * height - pad, left + width + pad, middle + 0.5 * height + pad],
+                    [
+                        left - pad,
+                        middle - 0.5 * height - pad,
+                        left + width + pad,
+                        middle + 0.5 * height + pad,
+                    ],
                 ));
             }
         }

@@ -76,7 +76,11 @@ impl Depth<'_> {
                 let length = (to - from).length();
                 // Far outside the picture a step more or less is not seen.
                 let beyond = from.max(to).min_element() < 0.0 || (from.min(to) - size).max_element() > 0.0;
-                let steps = if beyond || !length.is_finite() { 1 } else { length.ceil().clamp(1.0, 40_000.0) as usize };
+                let steps = if beyond || !length.is_finite() {
+                    1
+                } else {
+                    length.ceil().clamp(1.0, 40_000.0) as usize
+                };
                 for i in 1..=steps {
                     let t = i as f64 / steps as f64;
                     let at = from.lerp(to, t);
@@ -167,7 +171,11 @@ fn runs(steps: &[Step], hidden: bool, all: bool) -> Vec<Vec<Point>> {
             let at = [step.at.x as f32, step.at.y as f32];
             if !open {
                 // Join to the step before, so that a run does not start a pixel late.
-                out.push(if i > 0 { vec![[steps[i - 1].at.x as f32, steps[i - 1].at.y as f32]] } else { Vec::new() });
+                out.push(if i > 0 {
+                    vec![[steps[i - 1].at.x as f32, steps[i - 1].at.y as f32]]
+                } else {
+                    Vec::new()
+                });
             }
             open = true;
             if let Some(run) = out.last_mut() {

@@ -5,10 +5,23 @@ use rayon::prelude::*;
 
 use crate::scene::Shading;
 
+/// A face's normals; all unit vectors, or zero for a face without area.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CornerNormals {
+    /// The face's own.
+    pub(crate) flat: Vec3,
+    /// What light sees at its corners.
+    pub(crate) corners: [Vec3; 3],
+}
+
 /// Unit normals at the three corners of every face. Smooth shading takes, at every corner, the faces around the node
 /// whose normals are within the crease angle of the face's own, weighted by area. Degenerate faces get a zero
 /// normal. O(sum of squared node degrees).
-pub(crate) fn corner_normals(positions: &[DVec3], faces: &[[u32; 3]], shading: Shading) -> Vec<[Vec3; 3]> {
+pub(crate) fn corner_normals(
+    positions: &[DVec3],
+    faces: &[[u32; 3]],
+    shading: Shading,
+) -> Vec<CornerNormals> {
     let face_normals: Vec<(Vec3, f32)> = faces
         .par_iter()
         .map(|f| {
@@ -19,7 +32,10 @@ pub(crate) fn corner_normals(positions: &[DVec3], faces: &[[u32; 3]], shading: S
         })
         .collect();
     let Shading::Smooth { crease } = shading else {
-        return face_normals.into_iter().map(|(n, _)| [n; 3]).collect();
+        return face_normals
+            .into_iter()
+            .map(|(flat, _)| CornerNormals { flat, corners: [flat; 3] })
+            .collect();
     };
     let least = crease.clamp(0.0, std::f64::consts::PI).cos() as f32;
 
@@ -44,7 +60,7 @@ pub(crate) fn corner_normals(positions: &[DVec3], faces: &[[u32; 3]], shading: S
         .par_iter()
         .zip(&face_normals)
         .map(|(face, (own, _))| {
-            face.map(|v| {
+            let corners = face.map(|v| {
                 let range = starts[v as usize] as usize..starts[v as usize + 1] as usize;
                 let sum: Vec3 = around[range]
                     .iter()
@@ -54,7 +70,8 @@ pub(crate) fn corner_normals(positions: &[DVec3], faces: &[[u32; 3]], shading: S
                     .sum();
                 let smooth = sum.normalize_or_zero();
                 if smooth == Vec3::ZERO { *own } else { smooth }
-            })
+            });
+            CornerNormals { flat: *own, corners }
         })
         .collect()
 }

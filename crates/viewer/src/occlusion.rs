@@ -228,9 +228,12 @@ fn cast(
         }
         if all == 0 { 1.0 } else { free as f32 / all as f32 }
     };
-    let ambient = open(&mut sky.iter().skip(member).step_by(share).map(|(d, part)| {
-        blockers.blocked(from, a * d.x + b * d.y + place.normal * d.z, reach * part)
-    }));
+    let ambient =
+        open(
+            &mut sky.iter().skip(member).step_by(share).map(|(d, part)| {
+                blockers.blocked(from, a * d.x + b * d.y + place.normal * d.z, reach * part)
+            }),
+        );
     let key_light = if place.normal.dot(key) <= -LIGHT_RADIUS {
         0.0
     } else {

@@ -72,7 +72,8 @@ impl<'a> Painter<'a> {
     pub(crate) fn fill_seamless(&mut self, corners: &[Point; 3], color: Color) {
         let [a, b, c] = *corners;
         let [width, height] = self.size();
-        let cross = |p: Point, q: Point, x: f32, y: f32| (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]);
+        let cross =
+            |p: Point, q: Point, x: f32, y: f32| (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]);
         let sign = cross(a, b, c[0], c[1]).signum();
         let y_from = (a[1].min(b[1]).min(c[1]) - 0.5).ceil().clamp(0.0, height) as usize;
         let y_to = (a[1].max(b[1]).max(c[1]) + 0.5).floor().clamp(0.0, height) as usize;
@@ -91,7 +92,14 @@ impl<'a> Painter<'a> {
     }
 
     /// Strokes a polyline with round caps and joins; `width` in pixels.
-    pub(crate) fn stroke(&mut self, points: &[Point], width: f32, dash: Option<Dash>, color: Color, alpha: f32) {
+    pub(crate) fn stroke(
+        &mut self,
+        points: &[Point],
+        width: f32,
+        dash: Option<Dash>,
+        color: Color,
+        alpha: f32,
+    ) {
         match dash {
             None => self.cover(points, width),
             Some(dash) => {

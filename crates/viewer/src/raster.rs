@@ -4,6 +4,8 @@
 //! and the same on any number of threads. Pictures are cut into tiles; a tile's faces are tried in order of their
 //! index, so ties of depth go to the earlier face.
 
+use std::ops::{Add, BitOr, Mul};
+
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -222,101 +224,202 @@ struct Tile {
     nearness: Vec<f32>,
 }
 
-fn tile(screen: &[ScreenFace], bin: &[u32], origin: [usize; 2], size: [usize; 2], samples: &[[f32; 2]]) -> Tile {
+fn tile(
+    screen: &[ScreenFace],
+    bin: &[u32],
+    origin: [usize; 2],
+    size: [usize; 2],
+    samples: &[[f32; 2]],
+) -> Tile {
     let n = samples.len();
+    let lanes = n.div_ceil(LANES);
     let pixels = size[0] * size[1];
-    let mut near = vec![f32::NEG_INFINITY; pixels * n];
-    let mut seen = vec![u32::MAX; pixels * n];
+    let mut near = vec![[f32::NEG_INFINITY; LANES]; pixels * lanes];
+    let mut seen = vec![[u32::MAX; LANES]; pixels * lanes];
     if bin.is_empty() {
-        return Tile { fragments: Vec::new(), counts: vec![0; pixels], nearness: vec![f32::NEG_INFINITY; pixels] };
+        return Tile {
+            fragments: Vec::new(),
+            counts: vec![0; pixels],
+            nearness: vec![f32::NEG_INFINITY; pixels],
+        };
     }
     let snapped: Vec<[i64; 2]> =
         samples.iter().map(|s| s.map(|x| (f64::from(x) * SNAP).round() as i64)).collect();
+    let mut buffer = Buffer { origin, size, samples, snapped: &snapped, near: &mut near, seen: &mut seen };
+    let mut narrow = Offsets::new(n);
+    let mut wide = Offsets::new(n);
     for i in bin {
-        scan(&screen[*i as usize], origin, size, samples, &snapped, &mut near, &mut seen);
+        let face = &screen[*i as usize];
+        let within = |axis: usize| {
+            let at = (origin[axis] * SNAP as usize) as i64;
+            face.corners.iter().all(|c| (c[axis] - at).abs() <= NARROW)
+        };
+        if within(0) && within(1) {
+            scan::<i32>(face, &mut buffer, &mut narrow);
+        } else {
+            scan::<i64>(face, &mut buffer, &mut wide);
+        }
     }
 
-    let mut out = Tile { fragments: Vec::new(), counts: Vec::with_capacity(pixels), nearness: Vec::with_capacity(pixels) };
-    for pixel in 0..pixels {
+    let mut out = Tile {
+        fragments: Vec::new(),
+        counts: Vec::with_capacity(pixels),
+        nearness: Vec::with_capacity(pixels),
+    };
+    let middle = {
+        let sum = samples.iter().fold([0.0; 2], |m, s| [m[0] + s[0], m[1] + s[1]]);
+        sum.map(|x| x / n as f32)
+    };
+    for (seen, near) in seen.chunks_exact(lanes).zip(near.chunks_exact(lanes)) {
+        let (seen, near) = (&seen.as_flattened()[..n], &near.as_flattened()[..n]);
         let first = out.fragments.len();
-        for s in 0..n {
-            let face = seen[pixel * n + s];
-            if face == u32::MAX {
-                continue;
+        // Most pixels see one thing.
+        if seen.iter().all(|face| *face == seen[0]) {
+            if seen[0] != u32::MAX {
+                out.fragments.push(Fragment { face: seen[0], samples: n as u16, at: middle });
             }
-            let at = samples[s];
-            match out.fragments[first..].iter_mut().find(|f| f.face == face) {
-                Some(f) => {
-                    f.samples += 1;
-                    f.at = [f.at[0] + at[0], f.at[1] + at[1]];
+        } else {
+            for (face, at) in seen.iter().zip(samples) {
+                if *face == u32::MAX {
+                    continue;
                 }
-                None => out.fragments.push(Fragment { face, samples: 1, at }),
+                match out.fragments[first..].iter_mut().find(|f| f.face == *face) {
+                    Some(f) => {
+                        f.samples += 1;
+                        f.at = [f.at[0] + at[0], f.at[1] + at[1]];
+                    }
+                    None => out.fragments.push(Fragment { face: *face, samples: 1, at: *at }),
+                }
             }
-        }
-        for f in &mut out.fragments[first..] {
-            f.at = f.at.map(|x| x / f32::from(f.samples));
+            for f in &mut out.fragments[first..] {
+                f.at = f.at.map(|x| x / f32::from(f.samples));
+            }
         }
         out.counts.push((out.fragments.len() - first) as u16);
-        out.nearness.push(near[pixel * n..(pixel + 1) * n].iter().copied().fold(f32::INFINITY, f32::min));
+        out.nearness.push(near.iter().copied().fold(f32::INFINITY, f32::min));
     }
     out
 }
 
-/// Writes one face into a tile's samples.
-fn scan(
-    face: &ScreenFace,
+/// Faces whose corners are this near to the tile's origin (snapped units) are scanned in 32 bits: edge functions stay
+/// below 2 x 2^15 x 2^14 = 2^30.
+const NARROW: i64 = 1 << 14;
+
+/// Integers of edge functions.
+trait EdgeInt: Copy + Default + Ord + Add<Output = Self> + Mul<Output = Self> + BitOr<Output = Self> {
+    fn of(x: i64) -> Self;
+}
+
+impl EdgeInt for i32 {
+    fn of(x: i64) -> Self {
+        x as i32
+    }
+}
+
+impl EdgeInt for i64 {
+    fn of(x: i64) -> Self {
+        x
+    }
+}
+
+/// A tile's samples while faces are written into it.
+struct Buffer<'a> {
     origin: [usize; 2],
     size: [usize; 2],
-    samples: &[[f32; 2]],
-    snapped: &[[i64; 2]],
-    near: &mut [f32],
-    seen: &mut [u32],
-) {
+    samples: &'a [[f32; 2]],
+    snapped: &'a [[i64; 2]],
+    near: &'a mut [[f32; LANES]],
+    seen: &'a mut [[u32; LANES]],
+}
+
+/// Samples that are tried at once.
+const LANES: usize = 4;
+
+/// What a face's edge functions and nearness add at each sample of a pixel. Lanes beyond the last sample repeat it.
+struct Offsets<T> {
+    lanes: Vec<Lane<T>>,
+}
+
+#[derive(Clone, Copy)]
+struct Lane<T> {
+    edges: [[T; LANES]; 3],
+    nearness: [f32; LANES],
+}
+
+impl<T: EdgeInt> Offsets<T> {
+    fn new(samples: usize) -> Self {
+        let lane = Lane { edges: [[T::default(); LANES]; 3], nearness: [0.0; LANES] };
+        Self { lanes: vec![lane; samples.div_ceil(LANES)] }
+    }
+}
+
+/// Writes one face into a tile's samples.
+fn scan<T: EdgeInt>(face: &ScreenFace, tile: &mut Buffer, offsets: &mut Offsets<T>) {
     let unit = SNAP as i64;
-    let n = samples.len();
-    let clamp_range = |axis: usize| {
+    let n = tile.samples.len();
+    let origin = tile.origin.map(|x| x as i64);
+    let rows = |axis: usize| {
         let (lo, hi) = pixel_range(face, axis);
-        let from = (lo - origin[axis] as i64).max(0);
-        let to = (hi - origin[axis] as i64).min(size[axis] as i64 - 1);
-        (from, to)
+        ((lo - origin[axis]).max(0), (hi - origin[axis]).min(tile.size[axis] as i64 - 1))
     };
-    let ((x0, x1), (y0, y1)) = (clamp_range(0), clamp_range(1));
-    // Edge k: e = ax * (x - px) + ay * (y - py), not negative inside.
-    let mut ax = [0i64; 3];
-    let mut ay = [0i64; 3];
-    let mut base = [0i64; 3];
+    let ((x0, x1), (y0, y1)) = (rows(0), rows(1));
+    // Edge k at (x, y), not negative inside: ax * (x - px) + ay * (y - py).
+    let (mut ax, mut ay, mut base) = ([0i64; 3], [0i64; 3], [T::default(); 3]);
     for k in 0..3 {
         let (p, q) = (face.corners[k], face.corners[(k + 1) % 3]);
         ax[k] = -(q[1] - p[1]);
         ay[k] = q[0] - p[0];
-        base[k] = ax[k] * (origin[0] as i64 * unit - p[0]) + ay[k] * (origin[1] as i64 * unit - p[1]);
+        let at = ax[k] * ((origin[0] + x0) * unit - p[0]) + ay[k] * ((origin[1] + y0) * unit - p[1]);
+        base[k] = T::of(at);
     }
-    // Largest that an edge function can grow inside one pixel: rejects pixels wholly outside.
-    let growth = [0, 1, 2].map(|k| (ax[k].max(0) + ay[k].max(0)) * unit);
-    let least = [0, 1, 2].map(|k| (ax[k].min(0) + ay[k].min(0)) * unit);
     let [z0, gx, gy] = face.plane;
+    for (l, lane) in offsets.lanes.iter_mut().enumerate() {
+        for i in 0..LANES {
+            let s = (l * LANES + i).min(n - 1);
+            let at = tile.snapped[s];
+            for k in 0..3 {
+                lane.edges[k][i] = T::of(ax[k] * at[0] + ay[k] * at[1]);
+            }
+            lane.nearness[i] =
+                (gx * f64::from(tile.samples[s][0]) + gy * f64::from(tile.samples[s][1])) as f32;
+        }
+    }
     let (lo, hi) = (face.range[0] as f32, face.range[1] as f32);
+    let step_x = ax.map(|a| T::of(a * unit));
+    let step_y = ay.map(|a| T::of(a * unit));
+    // Most that an edge function grows inside a pixel: tells pixels wholly outside.
+    let growth = [0, 1, 2].map(|k| T::of((ax[k].max(0) + ay[k].max(0)) * unit));
+    let zero = T::default();
+    let lanes = &offsets.lanes[..];
     for y in y0..=y1 {
+        let mut e = base;
         for x in x0..=x1 {
-            let e = [0, 1, 2].map(|k| base[k] + (ax[k] * x + ay[k] * y) * unit);
-            if (0..3).any(|k| e[k] + growth[k] < 0) {
-                continue;
-            }
-            let whole = (0..3).all(|k| e[k] + least[k] >= 0);
-            let pixel = (y as usize * size[0] + x as usize) * n;
-            let corner = z0 + gx * (origin[0] as f64 + x as f64) + gy * (origin[1] as f64 + y as f64);
-            for s in 0..n {
-                let [sx, sy] = snapped[s];
-                if !whole && (0..3).any(|k| e[k] + ax[k] * sx + ay[k] * sy < 0) {
-                    continue;
+            let outside = (0..3).any(|k| e[k] + growth[k] < zero);
+            if !outside {
+                let corner = (z0 + gx * (origin[0] + x) as f64 + gy * (origin[1] + y) as f64) as f32;
+                let first = (y as usize * tile.size[0] + x as usize) * lanes.len();
+                let near = &mut tile.near[first..first + lanes.len()];
+                let seen = &mut tile.seen[first..first + lanes.len()];
+                for ((lane, near), seen) in lanes.iter().zip(near).zip(seen) {
+                    // Without branches, so that all lanes are tried at once.
+                    for i in 0..LANES {
+                        let inside =
+                            (e[0] + lane.edges[0][i]) | (e[1] + lane.edges[1][i]) | (e[2] + lane.edges[2][i]);
+                        let z = corner + lane.nearness[i];
+                        let z = if z > lo { z } else { lo };
+                        let z = if z < hi { z } else { hi };
+                        let wins = (inside >= zero) & (z > near[i]);
+                        near[i] = if wins { z } else { near[i] };
+                        seen[i] = if wins { face.face } else { seen[i] };
+                    }
                 }
-                let z = (corner + gx * f64::from(samples[s][0]) + gy * f64::from(samples[s][1])) as f32;
-                let z = z.clamp(lo, hi);
-                if z > near[pixel + s] {
-                    near[pixel + s] = z;
-                    seen[pixel + s] = face.face;
-                }
             }
+            for k in 0..3 {
+                e[k] = e[k] + step_x[k];
+            }
+        }
+        for k in 0..3 {
+            base[k] = base[k] + step_y[k];
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::camera::{Camera, Projector};
 use crate::color::{Color, Encoder};
 use crate::error::{RenderError, check_size};
 use crate::image::Image;
-use crate::normals::corner_normals;
+use crate::normals::{CornerNormals, corner_normals};
 use crate::occlusion::{Blockers, Light, LightMap, Place};
 use crate::raster::{self, Fragment, Visible};
 use crate::scene::{Paint, Reverse, Scene};
@@ -134,15 +134,27 @@ pub fn render(scene: &Scene, camera: &Camera, options: &RenderOptions) -> Result
             let fragments = visible.of_pixel(pixel);
             let mut sum = [0.0f32; 3];
             let mut open = samples;
-            for fragment in fragments {
+            // Parts that would get the same light are lit once.
+            let mut lit = 0u64;
+            for (i, fragment) in fragments.iter().enumerate() {
+                if lit >> i & 1 == 1 {
+                    continue;
+                }
+                let mut weight = f32::from(fragment.samples);
+                for (j, other) in fragments.iter().enumerate().skip(i + 1) {
+                    if lit >> j & 1 == 0 && surfaces.alike(fragment.face, other.face) {
+                        weight += f32::from(other.samples);
+                        lit |= 1 << j;
+                    }
+                }
                 let own = match &light {
                     None => Light::FULL,
                     Some(map) if fragments.len() == 1 => map.of_pixel(pixel),
                     Some(map) => map.near(pixel, frame.place_of(fragment, pixel, &surfaces.corners)),
                 };
-                let at = DVec2::new(x as f64 + f64::from(fragment.at[0]), y as f64 + f64::from(fragment.at[1]));
+                let at =
+                    DVec2::new(x as f64 + f64::from(fragment.at[0]), y as f64 + f64::from(fragment.at[1]));
                 let color = surfaces.color(&projector, &lights, fragment.face, at, own);
-                let weight = f32::from(fragment.samples);
                 open -= weight;
                 for k in 0..3 {
                     sum[k] += color[k].clamp(0.0, 1.0) * weight;
@@ -187,7 +199,7 @@ fn check_options(options: &RenderOptions) -> Result<(), RenderError> {
 struct Surfaces<'a> {
     scene: &'a Scene,
     corners: Vec<[DVec3; 3]>,
-    normals: Vec<[Vec3; 3]>,
+    normals: Vec<CornerNormals>,
     /// First face of each mesh.
     firsts: Vec<usize>,
     /// Each mesh's colours: what its numbers are looked up in, or its solid colour.
@@ -199,7 +211,8 @@ const TABLE: usize = 1024;
 
 impl<'a> Surfaces<'a> {
     fn new(scene: &'a Scene) -> Self {
-        let mut out = Self { scene, corners: Vec::new(), normals: Vec::new(), firsts: Vec::new(), tables: Vec::new() };
+        let mut out =
+            Self { scene, corners: Vec::new(), normals: Vec::new(), firsts: Vec::new(), tables: Vec::new() };
         for mesh in &scene.meshes {
             out.firsts.push(out.corners.len());
             out.corners.par_extend(mesh.faces.par_iter().map(|f| f.map(|v| mesh.positions[v as usize])));
@@ -215,10 +228,30 @@ impl<'a> Surfaces<'a> {
         out
     }
 
+    /// The mesh of a face.
+    fn mesh_of(&self, face: usize) -> usize {
+        self.firsts.partition_point(|first| *first <= face) - 1
+    }
+
+    /// Whether two faces look the same where they meet in one pixel: one mesh, one colour, one direction within 10°.
+    fn alike(&self, a: u32, b: u32) -> bool {
+        let (a, b) = (a as usize, b as usize);
+        let m = self.mesh_of(a);
+        if self.normals[a].flat.dot(self.normals[b].flat) < 0.985 || self.mesh_of(b) != m {
+            return false;
+        }
+        let (i, j) = (a - self.firsts[m], b - self.firsts[m]);
+        match &self.scene.meshes[m].paint {
+            Paint::Solid(_) | Paint::NodeValues { .. } => true,
+            Paint::Faces(colors) => colors[i] == colors[j],
+            Paint::FaceValues { values, .. } => values[i] == values[j],
+        }
+    }
+
     /// Light from a face towards the eye at a pixel position.
     fn color(&self, projector: &Projector, lights: &Lights, face: u32, at: DVec2, light: Light) -> [f32; 3] {
         let face = face as usize;
-        let m = self.firsts.partition_point(|first| *first <= face) - 1;
+        let m = self.mesh_of(face);
         let mesh = &self.scene.meshes[m];
         let local = face - self.firsts[m];
         let corners = &self.corners[face];
@@ -226,9 +259,8 @@ impl<'a> Surfaces<'a> {
         let weights = barycentric(corners, origin, direction);
         let [u, v, w] = weights.map(|x| x as f32);
 
-        let n = self.normals[face];
-        let flat = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-        let reversed = flat.dot(direction) > 0.0;
+        let CornerNormals { flat, corners: n } = self.normals[face];
+        let reversed = flat.as_dvec3().dot(direction) > 0.0;
         let mut normal = (n[0] * u + n[1] * v + n[2] * w).normalize_or_zero();
         if reversed {
             normal = -normal;
@@ -340,7 +372,13 @@ impl Frame<'_> {
     }
 
     /// The floor's places behind pixels that the model does not fill, near the model.
-    fn floor_places(&self, visible: &Visible, pattern: &[[f32; 2]], lo: DVec3, hi: DVec3) -> Vec<Option<Place>> {
+    fn floor_places(
+        &self,
+        visible: &Visible,
+        pattern: &[[f32; 2]],
+        lo: DVec3,
+        hi: DVec3,
+    ) -> Vec<Option<Place>> {
         let reach = f64::from(FLOOR_RADIUS) * (hi - lo).length();
         (0..visible.starts.len() - 1)
             .into_par_iter()

@@ -211,9 +211,8 @@ const MAX_COORDINATE: f64 = 1e9;
 impl Scene {
     /// Smallest and largest coordinates of everything but labels; `None` when there is nothing. O(n).
     pub fn bounds(&self) -> Option<[DVec3; 2]> {
-        self.places().fold(None, |b: Option<[DVec3; 2]>, p| {
-            Some(b.map_or([p, p], |[lo, hi]| [lo.min(p), hi.max(p)]))
-        })
+        self.places()
+            .fold(None, |b: Option<[DVec3; 2]>, p| Some(b.map_or([p, p], |[lo, hi]| [lo.min(p), hi.max(p)])))
     }
 
     /// All places that a camera must see: nodes of faces, line corners, points.

@@ -1,6 +1,6 @@
 //! Light on surfaces: a soft key light from the upper left, a fill light from the right, sky and floor.
 
-use glam::{Vec3, DVec3};
+use glam::{DVec3, Vec3};
 
 use crate::camera::Projector;
 use crate::occlusion::Light;
@@ -31,7 +31,14 @@ impl Lights {
     }
 
     /// Light that leaves a surface of colour `albedo` (linear) towards the eye.
-    pub(crate) fn shade(&self, albedo: [f32; 3], normal: Vec3, to_eye: Vec3, light: Light, finish: Finish) -> [f32; 3] {
+    pub(crate) fn shade(
+        &self,
+        albedo: [f32; 3],
+        normal: Vec3,
+        to_eye: Vec3,
+        light: Light,
+        finish: Finish,
+    ) -> [f32; 3] {
         // The key wraps a little around the form, as light through a soft box does.
         let key = ((normal.dot(self.key) + 0.22) / 1.22).max(0.0) * (0.25 + 0.75 * light.key);
         let fill = normal.dot(self.fill).max(0.0) * light.ambient;
