@@ -106,16 +106,16 @@ fn centres(figure: Figure) -> ByLevel {
 /// normal weight, and how fast each grows with girth over stature above 0.44.
 fn depths(figure: Figure) -> [[f64; 2]; 6] {
     match figure {
-        Figure::Woman => [[0.600, 0.25], [0.660, 0.8], [0.710, 0.9], [0.680, 0.6], [0.665, 0.45], [0.635, 0.3]],
-        Figure::Man => [[0.625, 0.25], [0.705, 0.8], [0.700, 1.0], [0.705, 0.6], [0.690, 0.4], [0.650, 0.3]],
-        Figure::Child => [[0.630, 0.25], [0.680, 0.8], [0.690, 1.0], [0.730, 0.6], [0.720, 0.4], [0.680, 0.3]],
+        Figure::Woman => [[0.600, 0.45], [0.660, 0.8], [0.710, 0.9], [0.680, 0.6], [0.665, 0.45], [0.635, 0.3]],
+        Figure::Man => [[0.620, 0.45], [0.705, 0.8], [0.700, 1.0], [0.705, 0.6], [0.690, 0.4], [0.650, 0.3]],
+        Figure::Child => [[0.630, 0.45], [0.680, 0.8], [0.690, 1.0], [0.730, 0.6], [0.720, 0.4], [0.680, 0.3]],
     }
 }
 
 /// Girth of the trunk without breasts at bust level and at the armpit, between underbust (0) and bust (1).
 fn rib_shares(figure: Figure) -> [f64; 2] {
     match figure {
-        Figure::Woman => [0.40, 0.48],
+        Figure::Woman => [0.45, 0.43],
         Figure::Man => [1.0, 0.55],
         Figure::Child => [1.0, 0.40],
     }
@@ -127,6 +127,13 @@ impl Sections {
         let parting = 0.0055 * h;
         let normal = depths(m.figure);
         let depth = |i: usize, girth: f64| (normal[i][0] + normal[i][1] * (girth / h - 0.44).max(0.0)).min(0.92);
+        // A stout body grows forward more than backward.
+        let stout = ((m.waist * 10.0 / h) - 0.46).max(0.0);
+        let forward = |y: f64| {
+            let below = smooth_step((y - levels.crotch) / (levels.waist - levels.crotch));
+            let above = smooth_step((levels.armpit - y) / (levels.armpit - levels.underbust));
+            0.11 * stout * h * below * above
+        };
         let thigh_half = m.thigh * 10.0 / std::f64::consts::TAU;
         let above = |t: f64| levels.crotch + t * h;
         let part_back = Curve::through(&[
@@ -157,7 +164,7 @@ impl Sections {
         let size = m.hip * 10.0 / hull_length(&mut hip_section.outline());
         hip_section.half_width *= size;
         hip_section.half_depth *= size;
-        hip_section.centre = centre.get(levels.hip);
+        hip_section.centre = centre.get(levels.hip) + forward(levels.hip);
         let legs = Legs::new(m, levels, parting, &hip_section);
         let table_step = 2.0;
         let girth = Self::girths(m, levels, &legs);
@@ -175,7 +182,6 @@ impl Sections {
             &[(0.0, 1.0), (0.35, 0.96), (0.65, 0.88), (1.0, 0.76), (1.5, 0.58), (2.0, 0.50)]
                 .map(|(t, v)| (levels.armpit + t * rise, v)),
         );
-        let stout = ((m.waist * 10.0 / h) - 0.46).max(0.0);
         let trunk = |y: f64| {
             let at = y.min(levels.armpit);
             let mut section = Section {
@@ -197,20 +203,17 @@ impl Sections {
             let size = girth.get(at) / unit;
             section.half_width = size;
             section.half_depth *= size * thinning.get(y.max(levels.armpit));
-            // A stout body grows forward more than backward.
-            let belly = smooth_step((y - levels.hip) / (levels.high_hip - levels.hip))
-                * smooth_step((levels.armpit - y) / (levels.armpit - levels.underbust));
-            section.centre += belly * 0.14 * stout * h;
+            section.centre += forward(y);
             section
         };
         let count = ((levels.nape + 0.1 * h) / table_step).ceil() as usize + 2;
-        let table = (0..count)
+        let table: Vec<[f64; FIELDS]> = (0..count)
             .map(|i| {
                 let y = i as f64 * table_step;
                 if y < levels.crotch { legs.section(y) } else { trunk(y) }.to_array()
             })
             .collect();
-        Self { step: table_step, table, parting }
+        Self { step: table_step, table: smoothed(&table, 0.0085 * h / table_step), parting }
     }
 
     /// Girth by height of the trunk without breasts.
@@ -411,4 +414,28 @@ fn by_level(levels: &Levels, values: ByLevel) -> Vec<(f64, f64)> {
 pub(super) fn smooth_step(t: f64) -> f64 {
     let t = t.clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
+}
+
+/// The table with its sizes and middles (not the parting) smoothed by a Gaussian of `spread` rows: monotone curves have
+/// jumps of curvature that would show as rings.
+fn smoothed(table: &[[f64; FIELDS]], spread: f64) -> Vec<[f64; FIELDS]> {
+    let reach = (3.0 * spread).ceil() as usize;
+    let weight: Vec<f64> = (0..=reach).map(|d| (-0.5 * (d as f64 / spread).powi(2)).exp()).collect();
+    let last = table.len() - 1;
+    (0..table.len())
+        .map(|i| {
+            let mut row = table[i];
+            for (k, value) in row.iter_mut().enumerate().filter(|(k, _)| !(3..5).contains(k)) {
+                let (mut sum, mut total) = (0.0, 0.0);
+                for (d, w) in weight.iter().enumerate() {
+                    for j in [i.saturating_sub(d), (i + d).min(last)] {
+                        sum += w * table[j][k];
+                        total += w;
+                    }
+                }
+                *value = sum / total;
+            }
+            row
+        })
+        .collect()
 }
