@@ -146,7 +146,7 @@ impl Field {
         // Arm plate from the shoulder point to the armpit.
         let chest = sections.at(levels.armpit);
         let height = levels.shoulder - levels.armpit;
-        let under_x = (chest.half_width + 0.006 * h).clamp(shoulder_x - 0.42 * height, shoulder_x + 0.10 * height);
+        let under_x = (chest.half_width + 0.006 * h).clamp(shoulder_x - 0.42 * height, shoulder_x + 0.15 * height);
         let top = DVec3::new(shoulder_x, levels.shoulder, 0.0);
         let bottom = DVec3::new(under_x, levels.armpit, 0.0);
         let along = (top - bottom).normalize();
