@@ -146,7 +146,7 @@ impl Field {
         // Arm plate from the shoulder point to the armpit.
         let chest = sections.at(levels.armpit);
         let height = levels.shoulder - levels.armpit;
-        let under_x = (chest.half_width + 0.006 * h).clamp(shoulder_x - 0.42 * height, shoulder_x + 0.10 * height);
+        let under_x = (chest.half_width + 0.006 * h).clamp(shoulder_x - 0.42 * height, shoulder_x + 0.15 * height);
         let top = DVec3::new(shoulder_x, levels.shoulder, 0.0);
         let bottom = DVec3::new(under_x, levels.armpit, 0.0);
         let along = (top - bottom).normalize();
@@ -193,7 +193,7 @@ impl Field {
             let tilt = 0.24_f64;
             let normal = DVec3::new(0.0, tilt.cos(), tilt.sin());
             let back = field.back_of(levels.top);
-            cuts.push(Cut { origin: back, normal, window: [levels.nape, f64::INFINITY] });
+            cuts.push(Cut { origin: back, normal, window: [levels.shoulder, f64::INFINITY] });
         }
         field.cuts = cuts;
         if m.figure == Figure::Woman {
@@ -362,7 +362,7 @@ fn hills(m: &Resolved, levels: &Levels) -> (Vec<Hill>, Vec<Hill>) {
         hill(0.047 * seat_wide, levels.hip + 0.004 * h, 0.032 * seat_wide, 0.026, seat),
     ];
     let stout = ((m.waist * 10.0 / h) - 0.46).max(0.0);
-    let mut front = vec![hill(0.0, levels.high_hip, 0.045, 0.030, 0.003 + 0.035 * stout)];
+    let mut front = vec![hill(0.0, levels.high_hip, 0.045, 0.032, 0.003 + 0.020 * stout)];
     if chest > 0.0 {
         front.push(hill(0.047 * wide, levels.bust + 0.006 * h, 0.030, 0.022, chest));
     }

@@ -85,16 +85,19 @@ impl DressForm {
         let levels = field.levels;
 
         // A coarse form first: how far do its girths miss, with all parts joined?
-        let coarse = half_form(&field, levels.stature / 70.0);
-        let correction = tape::correction(&coarse, &field, &resolved);
-        field.sections.scale(|y| correction.get(y));
+        let mut coarse = half_form(&field, levels.stature / 70.0);
+        for _ in 0..2 {
+            let correction = tape::correction(&coarse, &field, &resolved);
+            field.sections.scale(|y| correction.get(y));
+            coarse = half_form(&field, levels.stature / 70.0);
+        }
 
         let surface = 2.0 * remesh::area(&coarse);
         let edge = (surface / options.triangles as f64 / (0.25 * 3.0_f64.sqrt())).sqrt();
         let mut half = half_form(&field, edge * 0.95);
         remesh::remesh(&mut half, &field, edge, 5);
         for _ in 0..4 {
-            let correction = tape::correction(&half, &field, &resolved);
+            let correction = tape::level_extremes(&half, &field, &resolved);
             tape::warp(&mut half, &field, &correction);
         }
         tape::check(&half, &levels, &resolved)?;
@@ -161,21 +164,4 @@ fn plates(mesh: &TriMesh, labels: &[u8], field: &Field) -> Vec<Plate> {
         plates.push(of("neck", 2, 0.0));
     }
     plates
-}
-#[cfg(test)]
-mod debug_tests {
-    use super::*;
-    #[test]
-    fn dbg() {
-        let m: Measurements = serde_json::from_str(r#"{"bust":92,"waist":75,"hip":98.4,"height":168}"#).unwrap();
-        let r = m.resolve().unwrap();
-        let field = Field::new(&r, false);
-        let coarse = half_form(&field, 12.0);
-        let c = tape::correction(&coarse, &field, &r);
-        for i in 0..60 {
-            let y = 740.0 + 10.0 * i as f64;
-            let s = field.sections.at(y);
-            println!("{y} {:.1} A {:.1} b {:.1} c {:.1} corr {:.4}", tape::girths(&coarse, &[y])[0], s.half_width, s.half_depth, s.centre, c.get(y));
-        }
-    }
 }

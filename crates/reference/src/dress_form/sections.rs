@@ -84,6 +84,8 @@ impl Section {
 #[derive(Clone, Debug)]
 pub(super) struct Sections {
     step: f64,
+    /// Rows over which sizes are smoothed.
+    spread: f64,
     table: Vec<[f64; FIELDS]>,
     /// `ε` of the parting, mm.
     pub(super) parting: f64,
@@ -106,16 +108,16 @@ fn centres(figure: Figure) -> ByLevel {
 /// normal weight, and how fast each grows with girth over stature above 0.44.
 fn depths(figure: Figure) -> [[f64; 2]; 6] {
     match figure {
-        Figure::Woman => [[0.600, 0.25], [0.660, 0.8], [0.710, 0.9], [0.680, 0.6], [0.665, 0.45], [0.635, 0.3]],
-        Figure::Man => [[0.625, 0.25], [0.705, 0.8], [0.700, 1.0], [0.705, 0.6], [0.690, 0.4], [0.650, 0.3]],
-        Figure::Child => [[0.630, 0.25], [0.680, 0.8], [0.690, 1.0], [0.730, 0.6], [0.720, 0.4], [0.680, 0.3]],
+        Figure::Woman => [[0.600, 0.45], [0.660, 0.8], [0.710, 0.9], [0.680, 0.6], [0.665, 0.55], [0.635, 0.5]],
+        Figure::Man => [[0.620, 0.45], [0.705, 0.8], [0.700, 1.0], [0.705, 0.6], [0.690, 0.45], [0.650, 0.45]],
+        Figure::Child => [[0.630, 0.45], [0.680, 0.8], [0.690, 1.0], [0.730, 0.6], [0.720, 0.45], [0.680, 0.45]],
     }
 }
 
 /// Girth of the trunk without breasts at bust level and at the armpit, between underbust (0) and bust (1).
 fn rib_shares(figure: Figure) -> [f64; 2] {
     match figure {
-        Figure::Woman => [0.40, 0.48],
+        Figure::Woman => [0.45, 0.43],
         Figure::Man => [1.0, 0.55],
         Figure::Child => [1.0, 0.40],
     }
@@ -127,6 +129,13 @@ impl Sections {
         let parting = 0.0055 * h;
         let normal = depths(m.figure);
         let depth = |i: usize, girth: f64| (normal[i][0] + normal[i][1] * (girth / h - 0.44).max(0.0)).min(0.92);
+        // A stout body grows forward more than backward.
+        let stout = ((m.waist * 10.0 / h) - 0.46).max(0.0);
+        let forward = |y: f64| {
+            let below = smooth_step((y - levels.crotch) / (levels.waist - levels.crotch));
+            let above = smooth_step((levels.armpit - y) / (levels.armpit - levels.underbust));
+            0.11 * stout * h * below * above
+        };
         let thigh_half = m.thigh * 10.0 / std::f64::consts::TAU;
         let above = |t: f64| levels.crotch + t * h;
         let part_back = Curve::through(&[
@@ -157,7 +166,7 @@ impl Sections {
         let size = m.hip * 10.0 / hull_length(&mut hip_section.outline());
         hip_section.half_width *= size;
         hip_section.half_depth *= size;
-        hip_section.centre = centre.get(levels.hip);
+        hip_section.centre = centre.get(levels.hip) + forward(levels.hip);
         let legs = Legs::new(m, levels, parting, &hip_section);
         let table_step = 2.0;
         let girth = Self::girths(m, levels, &legs);
@@ -166,6 +175,17 @@ impl Sections {
         let mut ratio: Vec<(f64, f64)> = (0..6)
             .map(|i| (trunk_levels[i], depth(i, girth.get(trunk_levels[i]))))
             .collect();
+        // The arms hang outside the ribs: wide chests on narrow shoulders are deep.
+        let limit = m.shoulder_width * 5.0 + 0.06 * (levels.shoulder - levels.armpit);
+        while ratio[5].1 < 0.95 {
+            let unit = Section { half_width: 1.0, half_depth: ratio[5].1, ..hip_section };
+            let whole = Section { centre: 0.0, part_front: 0.0, part_back: 0.0, power_front: 2.3, power_back: 2.5, ..unit };
+            if girth.get(levels.armpit) / hull_length(&mut whole.outline()) <= limit {
+                break;
+            }
+            ratio[5].1 += 0.01;
+        }
+        ratio[4].1 = ratio[4].1.max(ratio[5].1 - 0.04);
         ratio.push((levels.crotch, 0.5));
         let ratio = Curve::through(&ratio);
         let power_front = Curve::through(&by_level(levels, [2.1, 2.15, 2.2, 2.2, 2.25, 2.3, 2.3, 2.3, 2.2]));
@@ -175,7 +195,6 @@ impl Sections {
             &[(0.0, 1.0), (0.35, 0.96), (0.65, 0.88), (1.0, 0.76), (1.5, 0.58), (2.0, 0.50)]
                 .map(|(t, v)| (levels.armpit + t * rise, v)),
         );
-        let stout = ((m.waist * 10.0 / h) - 0.46).max(0.0);
         let trunk = |y: f64| {
             let at = y.min(levels.armpit);
             let mut section = Section {
@@ -197,20 +216,19 @@ impl Sections {
             let size = girth.get(at) / unit;
             section.half_width = size;
             section.half_depth *= size * thinning.get(y.max(levels.armpit));
-            // A stout body grows forward more than backward.
-            let belly = smooth_step((y - levels.hip) / (levels.high_hip - levels.hip))
-                * smooth_step((levels.armpit - y) / (levels.armpit - levels.underbust));
-            section.centre += belly * 0.14 * stout * h;
+            section.centre += forward(y);
             section
         };
         let count = ((levels.nape + 0.1 * h) / table_step).ceil() as usize + 2;
-        let table = (0..count)
+        let table: Vec<[f64; FIELDS]> = (0..count)
             .map(|i| {
                 let y = i as f64 * table_step;
                 if y < levels.crotch { legs.section(y) } else { trunk(y) }.to_array()
             })
             .collect();
-        Self { step: table_step, table, parting }
+        // Sizes and middles; the parting opens the crotch where it shall.
+        let spread = 0.0085 * h / table_step;
+        Self { step: table_step, spread, table: smoothed(&table, spread, &[0, 1, 2, 5, 6]), parting }
     }
 
     /// Girth by height of the trunk without breasts.
@@ -247,10 +265,10 @@ impl Sections {
         Section::from_array(std::array::from_fn(|k| a[k] + f * (b[k] - a[k])))
     }
 
-    /// Multiplies width and depth of the sections by a factor of height, about their middles.
+    /// Multiplies width and depth of the sections by a factor of height, smoothed, about their middles.
     pub(super) fn scale(&mut self, factor: impl Fn(f64) -> f64) {
-        for (i, row) in self.table.iter_mut().enumerate() {
-            let s = factor(i as f64 * self.step);
+        let factors: Vec<[f64; 1]> = (0..self.table.len()).map(|i| [factor(i as f64 * self.step)]).collect();
+        for (row, [s]) in self.table.iter_mut().zip(smoothed(&factors, self.spread, &[0])) {
             row[0] *= s;
             row[1] *= s;
         }
@@ -411,4 +429,28 @@ fn by_level(levels: &Levels, values: ByLevel) -> Vec<(f64, f64)> {
 pub(super) fn smooth_step(t: f64) -> f64 {
     let t = t.clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
+}
+
+/// The columns of a table smoothed by a Gaussian of `spread` rows: monotone curves have jumps of curvature that would show
+/// as rings.
+fn smoothed<const N: usize>(table: &[[f64; N]], spread: f64, columns: &[usize]) -> Vec<[f64; N]> {
+    let reach = (3.0 * spread).ceil() as usize;
+    let weight: Vec<f64> = (0..=reach).map(|d| (-0.5 * (d as f64 / spread).powi(2)).exp()).collect();
+    let last = table.len() - 1;
+    (0..table.len())
+        .map(|i| {
+            let mut row = table[i];
+            for &k in columns {
+                let (mut sum, mut total) = (0.0, 0.0);
+                for (d, w) in weight.iter().enumerate() {
+                    for j in [i.saturating_sub(d), (i + d).min(last)] {
+                        sum += w * table[j][k];
+                        total += w;
+                    }
+                }
+                row[k] = sum / total;
+            }
+            row
+        })
+        .collect()
 }
