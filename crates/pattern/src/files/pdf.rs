@@ -87,49 +87,47 @@ struct Sheet {
     size: DVec2,
 }
 
-fn sheet(pattern: &Pattern, options: &PdfOptions, width: f64) -> Sheet {
+/// The drawing on cloth of a width; its length is rounded up by `round`. The legend stands at the top left, so that
+/// the first tile has it.
+fn sheet(pattern: &Pattern, options: &PdfOptions, width: f64, round: impl Fn(f64) -> f64) -> Sheet {
     let layout = lay_out(&pattern.pieces, width, GAP, LEGEND);
-    let mut drawings: Vec<PieceDrawing> = pattern
-        .pieces
-        .iter()
-        .zip(&layout.offsets)
-        .map(|(piece, offset)| draw(piece, *offset, &options.sample_size))
-        .collect();
-    let outlines = pattern
-        .pieces
-        .iter()
-        .zip(&layout.offsets)
-        .flat_map(|(piece, offset)| piece.cut.iter().map(|c| c.points.iter().map(|p| *p + *offset).collect()))
-        .collect();
-    drawings.push(legend(options));
-    Sheet { drawings, outlines, size: DVec2::new(layout.width, layout.length) }
+    let length = round(layout.length);
+    let mut drawings = Vec::with_capacity(pattern.pieces.len() + 1);
+    let mut outlines: Vec<Vec<DVec2>> = Vec::new();
+    for (piece, offset) in pattern.pieces.iter().zip(&layout.offsets) {
+        let [low, high] = bounds(piece.cut.iter().flat_map(|c| c.points.iter().copied()));
+        let offset = DVec2::new(offset.x, length - offset.y - low.y - high.y);
+        drawings.push(draw(piece, offset, &options.sample_size));
+        outlines.extend(piece.cut.iter().map(|c| c.points.iter().map(|p| *p + offset).collect()));
+    }
+    drawings.push(legend(options, DVec2::new(GAP, length - GAP)));
+    Sheet { drawings, outlines, size: DVec2::new(layout.width, length) }
 }
 
-/// Test squares with their sizes, at the origin.
-fn legend(options: &PdfOptions) -> PieceDrawing {
+/// Test squares with their sizes, below and right of a corner.
+fn legend(options: &PdfOptions, corner: DVec2) -> PieceDrawing {
     let square = |corner: DVec2, side: f64| Stroke {
         meaning: Meaning::Text,
-        points: [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].map(|d| corner + d * side).to_vec(),
+        points: [DVec2::ZERO, DVec2::X, DVec2::new(1.0, -1.0), DVec2::NEG_Y].map(|d| corner + d * side).to_vec(),
         closed: true,
     };
-    let low = DVec2::splat(GAP);
-    let second = low + DVec2::new(60.0, 0.0);
+    let second = corner + DVec2::new(60.0, 0.0);
     let text = |at: DVec2, height: f64, text: &str| Lettering { at, height, text: text.to_owned() };
     let middle = 25.0;
     PieceDrawing {
-        strokes: vec![square(low, 50.0), square(second, 50.8)],
+        strokes: vec![square(corner, 50.0), square(second, 50.8)],
         letters: vec![
-            text(low + DVec2::new(middle, 27.0), 3.0, "50 mm"),
-            text(low + DVec2::new(middle, 20.0), 2.2, "measure before cutting"),
-            text(second + DVec2::new(middle, 27.0), 3.0, "2 inch"),
-            text(second + DVec2::new(middle, 20.0), 2.2, "print at 100 %"),
-            text(low + DVec2::new(135.0, 30.0), 3.0, &options.title),
+            text(corner + DVec2::new(middle, -24.0), 3.0, "50 mm"),
+            text(corner + DVec2::new(middle, -31.0), 2.2, "measure before cutting"),
+            text(second + DVec2::new(middle, -24.0), 3.0, "2 inch"),
+            text(second + DVec2::new(middle, -31.0), 2.2, "print at 100 %"),
+            text(corner + DVec2::new(135.0, -25.0), 3.0, &options.title),
         ],
     }
 }
 
 fn plotter(pattern: &Pattern, options: &PdfOptions) -> Vec<u8> {
-    let sheet = sheet(pattern, options, pattern.layout.width);
+    let sheet = sheet(pattern, options, pattern.layout.width, |length| length);
     let unit = (sheet.size.max_element() * POINTS_PER_MM / LONGEST_SIDE).ceil().max(1.0);
     let scale = POINTS_PER_MM / unit;
     let mut content = Content::new();
@@ -151,7 +149,9 @@ fn tiled(pattern: &Pattern, options: &PdfOptions, paper: DVec2) -> Vec<u8> {
     let least = ((widest + 2.0 * GAP - OVERLAP) / step.x).ceil().max(1.0) as usize;
     let mut best: Option<(Sheet, Vec<[usize; 2]>)> = None;
     for columns in least..least + 6 {
-        let sheet = sheet(pattern, options, columns as f64 * step.x + OVERLAP);
+        let sheet = sheet(pattern, options, columns as f64 * step.x + OVERLAP, |length| {
+            ((length - OVERLAP) / step.y).ceil().max(1.0) * step.y + OVERLAP
+        });
         let tiles = used_tiles(&sheet, window, step);
         if best.as_ref().is_none_or(|b| tiles.len() < b.1.len()) {
             best = Some((sheet, tiles));
@@ -172,7 +172,8 @@ fn tiled(pattern: &Pattern, options: &PdfOptions, paper: DVec2) -> Vec<u8> {
 
 /// Number of tiles across and up.
 fn grid(sheet: &Sheet, step: DVec2) -> [usize; 2] {
-    let count = |length: f64, step: f64| ((length - OVERLAP) / step).ceil().max(1.0) as usize;
+    // Both sides are a whole number of steps and one overlap, up to rounding.
+    let count = |length: f64, step: f64| ((length - OVERLAP) / step - 1e-6).ceil().max(1.0) as usize;
     [count(sheet.size.x, step.x), count(sheet.size.y, step.y)]
 }
 

@@ -21,20 +21,6 @@ pub(crate) fn start(sheet: &mut Sheet) -> Result<(), NotDefinite> {
     if rescale(sheet) { Ok(()) } else { Err(NotDefinite) }
 }
 
-/// Two nodes far from each other.
-pub(crate) fn far_pair(space: &[DVec3]) -> [usize; 2] {
-    let farthest = |from: DVec3| {
-        (0..space.len())
-            .max_by(|&a, &b| {
-                let (p, q) = (space[a].distance_squared(from), space[b].distance_squared(from));
-                p.total_cmp(&q).then(b.cmp(&a))
-            })
-            .unwrap_or(0)
-    };
-    let a = farthest(space[0]);
-    [a, farthest(space[a])]
-}
-
 fn conformal(sheet: &mut Sheet) -> Result<(), NotDefinite> {
     // |f00 − f11|² + |f01 + f10|²
     const H: [[f64; 4]; 4] =
@@ -43,7 +29,7 @@ fn conformal(sheet: &mut Sheet) -> Result<(), NotDefinite> {
     for f in 0..sheet.faces.len() {
         sheet.add_face(f, &H);
     }
-    let pins = far_pair(&sheet.space);
+    let pins = sheet.pins[0];
     let weight = 1e4 * sheet.system.mean_diagonal();
     let span = sheet.space[pins[0]].distance(sheet.space[pins[1]]);
     let mut right = vec![[0.0; 2]; sheet.space.len()];

@@ -2,8 +2,9 @@
 //!
 //! 1. Every patch is checked and, where it must, cut open ([`cut`]).
 //! 2. Every patch goes to the plane on its own: conformal start, Newton ([`initial`], [`newton`]).
-//! 3. Corresponding edges of seams get a common length and are held to it while the stretch is least ([`joined`]).
+//! 3. Patches that are sewn together are solved as one, their seam edges held to equal lengths ([`joined`], [`coupled`]).
 
+mod coupled;
 mod cut;
 mod energy;
 mod initial;
@@ -19,11 +20,12 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use self::{
+    coupled::EdgeOf,
     cut::OpenPatch,
     joined::FlatSeam,
     newton::{Outcome, Stop},
-    sheet::{Hold, Sheet},
-    topology::{NONE, Topology},
+    sheet::Sheet,
+    topology::{DisjointSets, NONE, Topology},
 };
 use crate::{Flat, HolePolicy, PatternError, PatternInput, PatternOptions, PieceReport};
 
@@ -74,27 +76,7 @@ pub(crate) fn flatten(input: &PatternInput, options: &PatternOptions) -> Result<
         joined::flat_seams(input, &before, &after, &paths)
     };
     if options.match_seams {
-        hold_seams(&mut work, &seams);
-        let outcomes: Vec<_> = work
-            .par_iter_mut()
-            .map(|w| {
-                if w.sheet.holds.is_empty() {
-                    return Ok(w.outcome);
-                }
-                newton::minimise(&mut w.sheet, Stop::default())
-                    .map(|o| Outcome { steps: w.outcome.steps + o.steps, ..o })
-            })
-            .collect();
-        for (p, (outcome, w)) in outcomes.into_iter().zip(&mut work).enumerate() {
-            w.outcome = outcome.map_err(|_| unsolvable(&input.patches[p].name))?;
-            if w.outcome.hold_error > 1e-4 {
-                warnings.push(format!(
-                    "surface {:?}: its seam edges could not all be brought to their partners' lengths (largest \
-                     relative error {:.2e})",
-                    input.patches[p].name, w.outcome.hold_error
-                ));
-            }
-        }
+        fit_seams(input, &mut work, &seams, &mut warnings)?;
     }
     let patches: Vec<FlatPatch> =
         work.into_par_iter().enumerate().map(|(p, w)| finish(&input.patches[p].positions, w)).collect();
@@ -161,38 +143,74 @@ fn flatten_one(
     }
 }
 
-/// Gives every group of corresponding edges the mean of its free lengths as target.
-fn hold_seams(work: &mut [Work], seams: &[FlatSeam]) {
+/// Brings corresponding seam edges to equal lengths at the least total stretch: all pieces that are sewn together are
+/// solved as one, starting from their own best shapes.
+fn fit_seams(
+    input: &PatternInput,
+    work: &mut [Work],
+    seams: &[FlatSeam],
+    warnings: &mut Vec<String>,
+) -> Result<(), PatternError> {
     let groups = {
         let after: Vec<&Topology> = work.iter().map(|w| &w.open.topology).collect();
         joined::equal_length_groups(seams, &after)
     };
-    for group in groups {
-        let side = |work: &[Work], (patch, h): (u32, u32)| {
-            let sheet = &work[patch as usize].sheet;
-            (sheet.sides[h as usize / 3][h as usize % 3], sheet.faces[h as usize / 3])
-        };
-        let ends = |face: [u32; 3], h: u32| [face[h as usize % 3], face[(h as usize + 1) % 3]];
-        let target = group
+    let mut sewn = DisjointSets::new(work.len());
+    for group in &groups {
+        group.iter().for_each(|e| {
+            sewn.join(group[0].0, e.0);
+        });
+    }
+    // Garments: sets of patches sewn together, with their groups.
+    let mut garment_of = vec![usize::MAX; work.len()];
+    let mut garments: Vec<(Vec<usize>, Vec<Vec<EdgeOf>>)> = Vec::new();
+    let mut place = vec![0; work.len()];
+    for group in &groups {
+        let root = sewn.root(group[0].0) as usize;
+        if garment_of[root] == usize::MAX {
+            garment_of[root] = garments.len();
+            let members: Vec<usize> = (0..work.len()).filter(|&p| sewn.root(p as u32) as usize == root).collect();
+            members.iter().enumerate().for_each(|(i, &p)| place[p] = i);
+            garments.push((members, Vec::new()));
+        }
+        let edges = group
             .iter()
             .map(|&(patch, h)| {
-                let [a, b] = ends(side(work, (patch, h)).1, h);
-                let flat = &work[patch as usize].sheet.flat;
-                flat[a as usize].distance(flat[b as usize])
+                let face = work[patch as usize].sheet.faces[h as usize / 3];
+                let nodes = [face[h as usize % 3], face[(h as usize + 1) % 3]];
+                EdgeOf { sheet: place[patch as usize], nodes }
             })
-            .sum::<f64>()
-            / group.len() as f64;
-        for &(patch, h) in &group {
-            let (s, face) = side(work, (patch, h));
-            work[patch as usize].sheet.holds.push(Hold {
-                nodes: ends(face, h),
-                edge: s.edge,
-                forward: s.forward,
-                target,
-                multiplier: 0.0,
-            });
+            .collect();
+        garments[garment_of[root]].1.push(edges);
+    }
+    let solved: Vec<_> = garments
+        .par_iter()
+        .map(|(members, groups)| {
+            let sheets: Vec<&Sheet> = members.iter().map(|&p| &work[p].sheet).collect();
+            let mut merged = coupled::merge(&sheets, groups)?;
+            let outcome = newton::minimise(&mut merged, Stop::default())?;
+            Ok((merged, outcome))
+        })
+        .collect::<Vec<Result<(Sheet, Outcome), sparse::NotDefinite>>>();
+    for ((members, _), result) in garments.iter().zip(solved) {
+        let names = || members.iter().map(|&p| input.patches[p].name.as_str()).collect::<Vec<_>>().join(", ");
+        let (merged, outcome) = result.map_err(|_| unsolvable(&names()))?;
+        let mut sheets: Vec<&mut Sheet> =
+            work.iter_mut().enumerate().filter(|(p, _)| members.contains(p)).map(|(_, w)| &mut w.sheet).collect();
+        coupled::hand_back(&merged, &mut sheets);
+        for &p in members {
+            work[p].outcome.steps += outcome.steps;
+        }
+        if outcome.hold_error > 1e-4 {
+            warnings.push(format!(
+                "not all seam edges of {} could be brought to their partners' lengths (largest relative difference \
+                 {:.1e})",
+                names(),
+                outcome.hold_error
+            ));
         }
     }
+    Ok(())
 }
 
 /// Area-weighted mean and maximum of |1 − σ|.

@@ -6,12 +6,7 @@
 
 use glam::DVec2;
 
-use super::{
-    energy,
-    initial::far_pair,
-    sheet::Sheet,
-    sparse::NotDefinite,
-};
+use super::{energy, sheet::Sheet, sparse::NotDefinite};
 
 /// When to stop.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +20,7 @@ pub(crate) struct Stop {
 
 impl Default for Stop {
     fn default() -> Self {
-        Self { decrease: 1e-10, hold: 1e-8, steps: 200 }
+        Self { decrease: 1e-10, hold: 1e-6, steps: 200 }
     }
 }
 
@@ -38,14 +33,13 @@ pub(crate) struct Outcome {
     pub(crate) hold_error: f64,
 }
 
-/// Penalty of a held edge's relative length error. A triangle's own stiffness is 8 per area, so that one multiplier
+/// Penalty of a pair's relative difference of lengths. A triangle's own stiffness is 8 per area, so that one multiplier
 /// update leaves about 1 % of the error.
 const PENALTY: f64 = 1000.0;
 
 /// Moves `sheet.flat` to the least energy; it must be free of flips and stays so.
 pub(crate) fn minimise(sheet: &mut Sheet, stop: Stop) -> Result<Outcome, NotDefinite> {
     let n = sheet.flat.len();
-    let pins = far_pair(&sheet.space);
     let mut slope = vec![[0.0; 2]; n];
     let mut step = vec![[0.0; 2]; n];
     let mut trial = sheet.flat.clone();
@@ -54,9 +48,9 @@ pub(crate) fn minimise(sheet: &mut Sheet, stop: Stop) -> Result<Outcome, NotDefi
     let mut outcome = Outcome { hold_error: hold_error(sheet), ..Outcome::default() };
     while outcome.steps < stop.steps {
         outcome.steps += 1;
-        assemble(sheet, &mut slope, !near, pins);
+        assemble(sheet, &mut slope, !near);
         if sheet.system.factorise().is_err() {
-            assemble(sheet, &mut slope, true, pins);
+            assemble(sheet, &mut slope, true);
             if sheet.system.factorise().is_err() {
                 return Err(NotDefinite);
             }
@@ -104,9 +98,11 @@ pub(crate) fn minimise(sheet: &mut Sheet, stop: Stop) -> Result<Outcome, NotDefi
     Ok(outcome)
 }
 
+/// Difference of lengths of a pair over its length in space.
 fn relative_error(sheet: &Sheet, flat: &[DVec2], hold: usize) -> f64 {
-    let h = sheet.holds[hold];
-    flat[h.nodes[0] as usize].distance(flat[h.nodes[1] as usize]) / h.target - 1.0
+    let h = &sheet.holds[hold];
+    let [a, b] = h.ends.map(|e| flat[e[0] as usize].distance(flat[e[1] as usize]));
+    (a - b) / h.length
 }
 
 fn hold_error(sheet: &Sheet) -> f64 {
@@ -125,13 +121,13 @@ fn merit(sheet: &Sheet, flat: &[DVec2]) -> f64 {
     let mut sum = sheet.excess(flat);
     for (i, h) in sheet.holds.iter().enumerate() {
         let c = relative_error(sheet, flat, i);
-        sum += h.target * h.target * c * (h.multiplier + 0.5 * PENALTY * c);
+        sum += h.length * h.length * c * (h.multiplier + 0.5 * PENALTY * c);
     }
     sum
 }
 
 /// Fills the system with the Hessian and `slope` with the gradient at `sheet.flat`.
-fn assemble(sheet: &mut Sheet, slope: &mut [[f64; 2]], project: bool, pins: [usize; 2]) {
+fn assemble(sheet: &mut Sheet, slope: &mut [[f64; 2]], project: bool) {
     sheet.system.clear();
     slope.fill([0.0; 2]);
     for f in 0..sheet.faces.len() {
@@ -146,34 +142,72 @@ fn assemble(sheet: &mut Sheet, slope: &mut [[f64; 2]], project: bool, pins: [usi
         sheet.add_face(f, &energy::hessian(j, project));
     }
     for i in 0..sheet.holds.len() {
-        let h = sheet.holds[i];
-        let [a, b] = h.nodes.map(|v| v as usize);
-        let d = sheet.flat[b] - sheet.flat[a];
-        let length = d.length();
-        let unit = d / length;
-        let force = h.target * (h.multiplier + PENALTY * (length / h.target - 1.0));
-        let side = force / length;
-        let side = if project { side.max(0.0) } else { side };
-        let k = |x: f64, y: f64, same: f64| PENALTY * x * y + side * (same - x * y);
-        let (xx, xy, yy) = (k(unit.x, unit.x, 1.0), k(unit.x, unit.y, 0.0), k(unit.y, unit.y, 1.0));
-        sheet.system.add_node(h.nodes[0], [xx, xy, yy]);
-        sheet.system.add_node(h.nodes[1], [xx, xy, yy]);
-        sheet.system.add_edge(h.edge, h.forward, [[-xx, -xy], [-xy, -yy]]);
-        for (v, sign) in [(a, -1.0), (b, 1.0)] {
-            slope[v][0] += sign * force * unit.x;
-            slope[v][1] += sign * force * unit.y;
-        }
+        add_hold(sheet, slope, i, project);
     }
     // Energy does not notice rigid motions: hold one node, and another one across the line between them. The slope
     // has no part along rigid motions, so that these springs carry no force.
-    let [a, b] = pins;
     let weight = sheet.system.mean_diagonal();
-    let across = (sheet.flat[b] - sheet.flat[a]).perp().normalize_or(DVec2::Y);
-    sheet.system.add_node(a as u32, [weight, 0.0, weight]);
-    sheet.system.add_node(
-        b as u32,
-        [weight * across.x * across.x, weight * across.x * across.y, weight * across.y * across.y],
-    );
+    for &[a, b] in &sheet.pins {
+        let across = (sheet.flat[b] - sheet.flat[a]).perp().normalize_or(DVec2::Y);
+        sheet.system.add_node(a as u32, [weight, 0.0, weight]);
+        sheet.system.add_node(
+            b as u32,
+            [weight * across.x * across.x, weight * across.x * across.y, weight * across.y * across.y],
+        );
+    }
+}
+
+/// Adds the augmented Lagrangian of a pair of edges.
+fn add_hold(sheet: &mut Sheet, slope: &mut [[f64; 2]], hold: usize, project: bool) {
+    let h = &sheet.holds[hold];
+    let error = relative_error(sheet, &sheet.flat, hold);
+    let force = h.length * (h.multiplier + PENALTY * error);
+    let count = h.nodes.len();
+    // Derivative of (first − second length) at every node, and the second derivatives of the lengths.
+    let mut q = [DVec2::ZERO; 4];
+    let mut block = [[[0.0; 3]; 4]; 4];
+    for (side, sign) in [(0, 1.0), (1, -1.0)] {
+        let [a, b] = h.ends[side].map(|v| sheet.flat[v as usize]);
+        let (i, j) = (h.slots[side][0], h.slots[side][1]);
+        let length = a.distance(b);
+        let unit = (b - a) / length;
+        q[i] -= sign * unit;
+        q[j] += sign * unit;
+        let bend = sign * force / length;
+        let bend = if project { bend.max(0.0) } else { bend };
+        let across =
+            [bend * (1.0 - unit.x * unit.x), -bend * unit.x * unit.y, bend * (1.0 - unit.y * unit.y)];
+        for k in 0..3 {
+            block[i][i][k] += across[k];
+            block[j][j][k] += across[k];
+            block[i.min(j)][i.max(j)][k] -= across[k];
+        }
+    }
+    let (nodes, edges) = (h.nodes.clone(), h.edges.clone());
+    let mut pair = 0;
+    for i in 0..count {
+        slope[nodes[i] as usize][0] += force * q[i].x;
+        slope[nodes[i] as usize][1] += force * q[i].y;
+        let own = block[i][i];
+        sheet.system.add_node(
+            nodes[i],
+            [
+                PENALTY * q[i].x * q[i].x + own[0],
+                PENALTY * q[i].x * q[i].y + own[1],
+                PENALTY * q[i].y * q[i].y + own[2],
+            ],
+        );
+        for j in i + 1..count {
+            let b = block[i][j];
+            let k = |x: f64, y: f64| PENALTY * x * y;
+            let full = [
+                [k(q[i].x, q[j].x) + b[0], k(q[i].x, q[j].y) + b[1]],
+                [k(q[i].y, q[j].x) + b[1], k(q[i].y, q[j].y) + b[2]],
+            ];
+            sheet.system.add_edge(edges[pair].edge, edges[pair].forward, full);
+            pair += 1;
+        }
+    }
 }
 
 /// The longest step that flips no triangle, less a margin.

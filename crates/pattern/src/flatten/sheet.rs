@@ -8,7 +8,7 @@ use super::{
     topology::{NONE, Topology},
 };
 
-/// The edge opposite nothing: a face's side as an undirected edge.
+/// A face's side as an undirected edge.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Side {
     /// Undirected edge.
@@ -17,9 +17,9 @@ pub(crate) struct Side {
     pub(crate) forward: bool,
 }
 
-/// Rest shape and topology of a connected patch without unused nodes.
+/// Rest shape and topology of patches without unused nodes: a connected one, or several that are sewn together.
 pub(crate) struct Sheet {
-    /// Positions in space, in units of [`Sheet::unit`].
+    /// Positions in space.
     pub(crate) space: Vec<DVec3>,
     pub(crate) faces: Vec<[u32; 3]>,
     pub(crate) rest: Vec<RestTriangle>,
@@ -36,20 +36,26 @@ pub(crate) struct Sheet {
     /// Current flat positions.
     pub(crate) flat: Vec<DVec2>,
     pub(crate) system: BlockSystem,
-    /// Lengths the boundary and seam edges are held to.
+    /// Two nodes far from each other for every connected part: they stop rigid motions.
+    pub(crate) pins: Vec<[usize; 2]>,
+    /// Pairs of edges that are held to equal lengths.
     pub(crate) holds: Vec<Hold>,
 }
 
-/// An edge held to a length by an augmented Lagrangian.
-#[derive(Clone, Copy, Debug)]
+/// Two edges held to equal lengths by an augmented Lagrangian.
+#[derive(Clone, Debug)]
 pub(crate) struct Hold {
-    pub(crate) nodes: [u32; 2],
-    pub(crate) edge: u32,
-    /// Whether `nodes` is the edge's own direction.
-    pub(crate) forward: bool,
-    /// Wanted length.
-    pub(crate) target: f64,
-    /// Lagrange multiplier of `length / target − 1`, per target².
+    /// Ends of both edges.
+    pub(crate) ends: [[u32; 2]; 2],
+    /// The two to four different nodes of both.
+    pub(crate) nodes: Vec<u32>,
+    /// Which of `nodes` the four ends are.
+    pub(crate) slots: [[usize; 2]; 2],
+    /// System edge of every pair of `nodes`, in the order (0, 1), (0, 2), … (1, 2) …
+    pub(crate) edges: Vec<Side>,
+    /// Length in space.
+    pub(crate) length: f64,
+    /// Lagrange multiplier of the difference of lengths over `length`, per `length`².
     pub(crate) multiplier: f64,
 }
 
@@ -93,7 +99,9 @@ impl Sheet {
             .collect();
         let system = BlockSystem::new(&space, &edges)?;
         let flat = vec![DVec2::ZERO; space.len()];
-        Ok(Self { space, faces, rest, edges, sides, loops, area, compact, flat, system, holds: Vec::new() })
+        let pins = vec![far_pair(&space)];
+        let holds = Vec::new();
+        Ok(Self { space, faces, rest, edges, sides, loops, area, compact, flat, system, pins, holds })
     }
 
     /// Flat corners of face `f`.
@@ -148,4 +156,18 @@ impl Sheet {
             self.system.add_edge(side.edge, side.forward, block(i, (i + 1) % 3));
         }
     }
+}
+
+/// Two nodes far from each other.
+fn far_pair(space: &[DVec3]) -> [usize; 2] {
+    let farthest = |from: DVec3| {
+        (0..space.len())
+            .max_by(|&a, &b| {
+                let (p, q) = (space[a].distance_squared(from), space[b].distance_squared(from));
+                p.total_cmp(&q).then(b.cmp(&a))
+            })
+            .unwrap_or(0)
+    };
+    let a = farthest(space[0]);
+    [a, farthest(space[a])]
 }

@@ -106,7 +106,8 @@ pub(crate) fn deep_point(loops: &[Vec<DVec2>]) -> DVec2 {
 }
 
 /// Grain line: a vertical through the piece beside the text, as long as fits, at most 400 mm.
-pub(crate) fn grain_line(loops: &[Vec<DVec2>], text_at: DVec2) -> [DVec2; 2] {
+pub(crate) fn grain_line(loops: &[Vec<DVec2>], text_at: DVec2, letters: usize) -> [DVec2; 2] {
+    let text_half = (0.6 * depth(text_at, loops)).min(3.5 * letters.max(8) as f64) + 3.0;
     let [low, high] = bounds(loops.iter().flatten().copied());
     let mut best: Option<(f64, [DVec2; 2])> = None;
     for k in 0..24 {
@@ -114,7 +115,7 @@ pub(crate) fn grain_line(loops: &[Vec<DVec2>], text_at: DVec2) -> [DVec2; 2] {
         let Some([from, to]) = longest_chord(loops, x) else { continue };
         let beside = (x - text_at.x).abs();
         // Long is good; far from the text is bad; on the text too.
-        let score = (to - from) - 0.5 * beside - if beside < 12.0 { 40.0 } else { 0.0 };
+        let score = (to - from) - 0.5 * beside - if beside < text_half { 0.5 * (to - from) } else { 0.0 };
         if best.is_none_or(|b| score > b.0) {
             let middle = 0.5 * (from + to);
             let half = (0.35 * (to - from)).min(200.0);

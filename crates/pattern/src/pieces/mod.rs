@@ -109,12 +109,13 @@ fn piece(input: &PatternInput, flat: &Flattened, p: usize, wanted: &[Wanted], op
             a.extend(b.into_iter().skip(1));
             a
         });
+    let label = if patch.piece.label.is_empty() { patch.name.clone() } else { patch.piece.label.clone() };
     Piece {
         name: patch.name.clone(),
-        label: if patch.piece.label.is_empty() { patch.name.clone() } else { patch.piece.label.clone() },
+        grain: interior::grain_line(&loops, text_at, label.chars().count()),
+        label,
         quantity: patch.piece.quantity,
         material: patch.piece.material.clone(),
-        grain: interior::grain_line(&loops, text_at),
         sew,
         cut,
         notches,
