@@ -1,1 +1,60 @@
 //! Feature templates: encoding, profiles, shape construction, collision, regeneration.
+//!
+//! After Wang et al., *feature templates for non-manifold freeform objects*: a template is a coarse complex of patches
+//! whose nodes are stored relative to the features of a body. [`regenerate`](regenerate()) rebuilds it on any body with the same
+//! features.
+
+pub mod encoding;
+pub mod error;
+pub mod fairing;
+pub mod format;
+mod layout;
+pub mod lines;
+mod place;
+mod skin;
+
+pub use error::TemplateError;
+
+/// A template that was read, checked and written out.
+#[derive(Clone, Debug)]
+pub struct Template {
+    file: format::TemplateFile,
+    pub(crate) layout: layout::Layout,
+}
+
+impl Template {
+    /// Reads a template from its JSON text (see [`format`]).
+    ///
+    /// # Errors
+    /// [`TemplateError::Format`] with the path of the value at fault, [`TemplateError::Version`].
+    pub fn from_json(text: &str) -> Result<Self, TemplateError> {
+        let file = format::strict::from_str(text)
+            .map_err(|e| TemplateError::Format { path: e.path, message: e.message })?;
+        Self::from_file(file)
+    }
+
+    /// Takes a template file made in memory, with the same checks as [`Template::from_json`].
+    ///
+    /// # Errors
+    /// [`TemplateError::Format`], [`TemplateError::Version`].
+    pub fn from_file(file: format::TemplateFile) -> Result<Self, TemplateError> {
+        format::check::check(&file)?;
+        let layout = layout::Layout::new(&file)?;
+        Ok(Self { file, layout })
+    }
+
+    /// The template as it stands in the file.
+    pub fn file(&self) -> &format::TemplateFile {
+        &self.file
+    }
+
+    /// The template as JSON text, ready to be read again.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string_pretty(&self.file).unwrap_or_default()
+    }
+
+    /// The JSON Schema of the format.
+    pub fn schema() -> serde_json::Value {
+        schemars::schema_for!(format::TemplateFile).to_value()
+    }
+}

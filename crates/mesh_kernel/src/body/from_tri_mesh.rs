@@ -1,0 +1,482 @@
+//! A body from a mesh of which nothing is known: groups become surfaces, what is not manifold becomes joints.
+
+use std::collections::BTreeMap;
+
+use super::Body;
+use super::build::{BuildError, Run, RunJoint};
+use super::ids::{DirectedEdge, EdgeId, NONE};
+use super::surface::Surface;
+use super::weld::UnionFind;
+use crate::TriMesh;
+
+/// Sides of faces by the mesh's edges: side `3f + i` of face `f` lies on edge `of_side[3f + i]`.
+struct MeshEdges {
+    of_side: Vec<u32>,
+    starts: Vec<u32>,
+    sides: Vec<u32>,
+    nodes: Vec<[u32; 2]>,
+}
+
+impl MeshEdges {
+    fn new(mesh: &TriMesh) -> Self {
+        let mut head = vec![NONE; mesh.positions.len()];
+        let mut link: Vec<[u32; 2]> = Vec::with_capacity(mesh.faces.len() * 3 / 2 + 8);
+        let mut nodes: Vec<[u32; 2]> = Vec::with_capacity(mesh.faces.len() * 3 / 2 + 8);
+        let mut of_side = Vec::with_capacity(mesh.faces.len() * 3);
+        let mut counts: Vec<u32> = Vec::with_capacity(mesh.faces.len() * 3 / 2 + 8);
+        for &[a, b, c] in &mesh.faces {
+            for (p, q) in [(a, b), (b, c), (c, a)] {
+                let (lo, hi) = if p < q { (p, q) } else { (q, p) };
+                let mut e = head[lo as usize];
+                while e != NONE && link[e as usize][0] != hi {
+                    e = link[e as usize][1];
+                }
+                if e == NONE {
+                    e = link.len() as u32;
+                    link.push([hi, head[lo as usize]]);
+                    head[lo as usize] = e;
+                    nodes.push([p, q]);
+                    counts.push(0);
+                }
+                counts[e as usize] += 1;
+                of_side.push(e);
+            }
+        }
+        let mut starts = Vec::with_capacity(counts.len() + 1);
+        let mut at = 0;
+        starts.push(0);
+        for n in counts {
+            at += n;
+            starts.push(at);
+        }
+        let mut fill = starts.clone();
+        let mut sides = vec![0; of_side.len()];
+        for (s, &e) in of_side.iter().enumerate() {
+            sides[fill[e as usize] as usize] = s as u32;
+            fill[e as usize] += 1;
+        }
+        Self { of_side, starts, sides, nodes }
+    }
+
+    fn sides(&self, e: u32) -> &[u32] {
+        &self.sides[self.starts[e as usize] as usize..self.starts[e as usize + 1] as usize]
+    }
+}
+
+/// How one surface meets an edge that is to be a joint's: by both faces of an inner edge, or by one face.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct EdgeUse {
+    group: u32,
+    inner: bool,
+    /// A side of a face of it.
+    side: u32,
+}
+
+impl Body {
+    /// Makes a body of a mesh: every group a surface (faces of no group one more), a joint wherever groups share edges,
+    /// three or more faces meet, or two faces of one group are wound differently at an edge. Joints run from branching
+    /// to branching. Where surfaces touch at a node only, a joint without edges holds them together.
+    ///
+    /// Nodes without faces are left out. Joints are numbered in the order of the mesh's edges, and have no names.
+    ///
+    /// # Errors
+    /// Faces that name a node twice or one that does not exist; coordinates that are not finite; too many faces.
+    /// O(faces).
+    pub fn from_tri_mesh(mesh: &TriMesh) -> Result<Self, BuildError> {
+        check_input(mesh)?;
+        let groups = Groups::new(mesh);
+        let edges = MeshEdges::new(mesh);
+        let (uses, joint_edges) = edge_uses(&edges, &groups, mesh);
+        // Corners of a face that are one node of the surface.
+        let copies = Copies::new(mesh, &groups, &edges, &uses, &joint_edges);
+        let surfaces = make_surfaces(mesh, &groups, &copies, &edges, &uses)?;
+        let mut joints = trace_joints(mesh, &groups, &edges, &uses, &surfaces);
+        joints.extend(touching_nodes(mesh, &groups, &copies, &surfaces, &joints));
+        Self::assemble(surfaces, joints)
+    }
+}
+
+fn check_input(mesh: &TriMesh) -> Result<(), BuildError> {
+    let (nodes, faces) = (mesh.positions.len(), mesh.faces.len());
+    let surface_of = |f: usize| {
+        let group = mesh.groups.iter().find(|g| g.faces.contains(&(f as u32)));
+        group.map_or(String::new(), |g| g.name.clone())
+    };
+    if nodes >= NONE as usize || faces >= (1 << 31) / 3 {
+        return Err(BuildError::TooLarge { surface: surface_of(0), faces, nodes });
+    }
+    for (f, face) in mesh.faces.iter().enumerate() {
+        if let Some(&node) = face.iter().find(|&&v| v as usize >= nodes) {
+            return Err(BuildError::NodeOutOfRange { surface: surface_of(f), face: f as u32, node, nodes });
+        }
+        let [a, b, c] = *face;
+        if a == b || b == c || c == a {
+            return Err(BuildError::RepeatedNode { surface: surface_of(f), face: f as u32, nodes: *face });
+        }
+    }
+    if let Some(v) = mesh.positions.iter().position(|p| !p.is_finite()) {
+        let position = mesh.positions[v];
+        return Err(BuildError::NotFinite { surface: surface_of(0), node: v as u32, position });
+    }
+    Ok(())
+}
+
+/// The surface of every face.
+struct Groups {
+    names: Vec<String>,
+    of_face: Vec<u32>,
+    /// Number of every face within its surface.
+    local: Vec<u32>,
+}
+
+impl Groups {
+    fn new(mesh: &TriMesh) -> Self {
+        let mut of_face = vec![NONE; mesh.faces.len()];
+        let mut names = Vec::new();
+        for group in &mesh.groups {
+            let range = group.faces.start as usize..(group.faces.end as usize).min(mesh.faces.len());
+            if range.is_empty() {
+                continue;
+            }
+            of_face[range].fill(names.len() as u32);
+            names.push(group.name.clone());
+        }
+        if of_face.contains(&NONE) {
+            let rest = names.len() as u32;
+            of_face.iter_mut().filter(|g| **g == NONE).for_each(|g| *g = rest);
+            names.push(String::new());
+        }
+        let mut counts = vec![0; names.len()];
+        let local = of_face
+            .iter()
+            .map(|&g| {
+                counts[g as usize] += 1;
+                counts[g as usize] - 1
+            })
+            .collect();
+        Self { names, of_face, local }
+    }
+}
+
+/// For every edge that is to be on a joint, how surfaces meet it.
+type Uses = BTreeMap<u32, Vec<EdgeUse>>;
+
+fn edge_uses(edges: &MeshEdges, groups: &Groups, mesh: &TriMesh) -> (Uses, Vec<bool>) {
+    let group = |side: u32| groups.of_face[side as usize / 3];
+    let start = |side: u32| mesh.faces[side as usize / 3][side as usize % 3];
+    let mut uses = BTreeMap::new();
+    let mut on_joint = vec![false; edges.nodes.len()];
+    for e in 0..edges.nodes.len() as u32 {
+        let sides = edges.sides(e);
+        let manifold = match sides {
+            [_] => true,
+            &[s, t] => group(s) == group(t) && start(s) != start(t),
+            _ => false,
+        };
+        if manifold {
+            continue;
+        }
+        on_joint[e as usize] = true;
+        let mut list: Vec<EdgeUse> = Vec::with_capacity(sides.len());
+        for &s in sides {
+            let g = group(s);
+            let own = || sides.iter().filter(|&&t| group(t) == g);
+            // Two faces wound alike stay together as an inner edge; any other number is cut.
+            let inner = own().count() == 2 && own().any(|&t| start(t) != start(s));
+            if !(inner && list.iter().any(|u| u.group == g)) {
+                list.push(EdgeUse { group: g, inner, side: s });
+            }
+        }
+        uses.insert(e, list);
+    }
+    (uses, on_joint)
+}
+
+/// Which corners of faces are one node of their surface.
+struct Copies {
+    /// Set of every corner `3f + i`.
+    set: Vec<u32>,
+}
+
+impl Copies {
+    fn new(mesh: &TriMesh, groups: &Groups, edges: &MeshEdges, uses: &Uses, joint_edges: &[bool]) -> Self {
+        let corners = mesh.faces.len() * 3;
+        let mut sets = UnionFind::new(corners);
+        let corner_at = |f: u32, v: u32| {
+            3 * f + mesh.faces[f as usize].iter().position(|&n| n == v).unwrap_or(0) as u32
+        };
+        // Through edges that stay whole.
+        for e in 0..edges.nodes.len() as u32 {
+            let [p, q] = edges.nodes[e as usize];
+            let mut join = |s: u32, t: u32| {
+                for v in [p, q] {
+                    sets.union(corner_at(s / 3, v), corner_at(t / 3, v));
+                }
+            };
+            match uses.get(&e) {
+                None => {
+                    if let &[s, t] = edges.sides(e) {
+                        join(s, t);
+                    }
+                }
+                Some(list) => {
+                    for u in list.iter().filter(|u| u.inner) {
+                        for &t in edges.sides(e) {
+                            if t != u.side && groups.of_face[t as usize / 3] == u.group {
+                                join(u.side, t);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        // Fans of one surface that meet at a node only stay one node, unless joints cut them apart there.
+        let mut cut = vec![false; corners];
+        for (s, &e) in edges.of_side.iter().enumerate() {
+            if joint_edges[e as usize] {
+                let f = s / 3 * 3;
+                for corner in [s, f + (s + 1) % 3] {
+                    let root = sets.find(corner as u32);
+                    cut[root as usize] = true;
+                }
+            }
+        }
+        let mut first: BTreeMap<(u32, u32), u32> = BTreeMap::new();
+        let mut roots_at: Vec<u32> = vec![NONE; mesh.positions.len()];
+        for corner in 0..corners as u32 {
+            let root = sets.find(corner);
+            if root != corner {
+                continue;
+            }
+            let (f, v) = (corner / 3, mesh.faces[corner as usize / 3][corner as usize % 3]);
+            let there = roots_at[v as usize];
+            if there == NONE {
+                roots_at[v as usize] = root;
+                continue;
+            }
+            // Rare: several fans at the node.
+            let key = |c: u32| (groups.of_face[c as usize / 3], v);
+            let own = (groups.of_face[f as usize], v);
+            first.entry(key(there)).or_insert(there);
+            match first.get(&own) {
+                None => {
+                    first.insert(own, root);
+                }
+                Some(&other) if !cut[root as usize] || !cut[other as usize] => {
+                    let both = cut[root as usize] || cut[other as usize];
+                    sets.union(root, other);
+                    let joined = sets.find(root);
+                    cut[joined as usize] = both;
+                    first.insert(own, joined);
+                }
+                Some(_) => {}
+            }
+        }
+        Self { set: (0..corners as u32).map(|c| sets.find(c)).collect() }
+    }
+}
+
+/// A surface a group; sides on cut edges get edges of their own.
+fn make_surfaces(
+    mesh: &TriMesh,
+    groups: &Groups,
+    copies: &Copies,
+    edges: &MeshEdges,
+    uses: &Uses,
+) -> Result<Vec<Surface>, BuildError> {
+    let mut surfaces: Vec<Surface> =
+        groups.names.iter().map(|n| Surface { name: n.clone(), ..Surface::default() }).collect();
+    let mut numbers = vec![NONE; copies.set.len()];
+    let mut face_of: Vec<Vec<u32>> = vec![Vec::new(); surfaces.len()];
+    for (f, face) in mesh.faces.iter().enumerate() {
+        let g = groups.of_face[f] as usize;
+        let s = &mut surfaces[g];
+        let nodes = [0, 1, 2].map(|i| {
+            let number = &mut numbers[copies.set[3 * f + i] as usize];
+            if *number == NONE {
+                *number = s.positions.len() as u32;
+                s.positions.push(mesh.positions[face[i] as usize]);
+            }
+            *number
+        });
+        s.faces.push(nodes);
+        face_of[g].push(f as u32);
+    }
+    for (g, s) in surfaces.iter_mut().enumerate() {
+        let faces = &face_of[g];
+        let separate = |f: u32, i: usize| {
+            let e = edges.of_side[3 * faces[f as usize] as usize + i];
+            uses.get(&e).is_some_and(|list| list.iter().any(|u| u.group == g as u32 && !u.inner))
+        };
+        s.build_edges(separate).map_err(|c| BuildError::EdgeConflict {
+            surface: groups.names[g].clone(),
+            faces: [c.same_way, c.face].map(|f| faces[f as usize]),
+            nodes: mesh.faces[faces[c.face as usize] as usize][..2].try_into().unwrap_or([0; 2]),
+        })?;
+    }
+    Ok(surfaces)
+}
+
+/// Joint edges strung together to joints.
+fn trace_joints(
+    mesh: &TriMesh,
+    groups: &Groups,
+    edges: &MeshEdges,
+    uses: &Uses,
+    surfaces: &[Surface],
+) -> Vec<RunJoint> {
+    let mut at_node: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    for &e in uses.keys() {
+        for v in edges.nodes[e as usize] {
+            at_node.entry(v).or_default().push(e);
+        }
+    }
+    // The surface's node of a use at a node of the mesh.
+    let local = |u: &EdgeUse, v: u32| {
+        let f = u.side / 3;
+        let i = mesh.faces[f as usize].iter().position(|&n| n == v).unwrap_or(0);
+        surfaces[u.group as usize].faces[groups.local[f as usize] as usize][i]
+    };
+    let key = |u: &EdgeUse, v: u32| (u.group, u.inner, local(u, v));
+    // The uses of `e` put into the order of the uses of another edge at a node; `None` where the joint ends there.
+    let follow = |list: &[EdgeUse], v: u32, e: u32| -> Option<Vec<EdgeUse>> {
+        let next = &uses[&e];
+        if next.len() != list.len() {
+            return None;
+        }
+        let mut out = Vec::with_capacity(list.len());
+        for u in list {
+            let mut same = next.iter().filter(|w| key(w, v) == key(u, v));
+            let (found, more) = (same.next()?, same.next());
+            if more.is_some() {
+                return None;
+            }
+            // Boundary uses must go on along the same boundary, with their face on the same side.
+            out.push(*found);
+        }
+        let mut distinct: Vec<u32> = out.iter().map(|u| u.side).collect();
+        distinct.sort_unstable();
+        distinct.dedup();
+        (distinct.len() == out.len()).then_some(out)
+    };
+    let mut done = vec![false; edges.nodes.len()];
+    let mut joints = Vec::new();
+    for (&seed, list) in uses {
+        if done[seed as usize] {
+            continue;
+        }
+        done[seed as usize] = true;
+        let [p, q] = edges.nodes[seed as usize];
+        // Steps (edge, node where it starts, uses), walked on from q and back from p.
+        let walk = |from: u32, done: &mut Vec<bool>| {
+            let mut steps = Vec::new();
+            let (mut v, mut e, mut at) = (from, seed, list.clone());
+            while let [a, b] = at_node[&v][..] {
+                let next = if a == e { b } else { a };
+                if done[next as usize] {
+                    break;
+                }
+                let Some(uses) = follow(&at, v, next) else { break };
+                let consistent = at.iter().zip(&uses).all(|(u, w)| {
+                    let start = |u: &EdgeUse| mesh.faces[u.side as usize / 3][u.side as usize % 3];
+                    // One face's side ends at v, the other's starts there, or both are inner.
+                    u.inner || ((start(u) == v) != (start(w) == v))
+                });
+                if !consistent {
+                    break;
+                }
+                done[next as usize] = true;
+                let ends = edges.nodes[next as usize];
+                steps.push((next, v, uses.clone()));
+                v = if ends[0] == v { ends[1] } else { ends[0] };
+                (e, at) = (next, uses);
+            }
+            steps
+        };
+        let ahead = walk(q, &mut done);
+        let behind = walk(p, &mut done);
+        let mut steps: Vec<(u32, u32, Vec<EdgeUse>)> = Vec::new();
+        for (e, v, uses) in behind.into_iter().rev() {
+            let ends = edges.nodes[e as usize];
+            steps.push((e, if ends[0] == v { ends[1] } else { ends[0] }, uses));
+        }
+        steps.push((seed, p, list.clone()));
+        steps.extend(ahead);
+        let runs = (0..list.len())
+            .map(|i| {
+                let mut run = Run { surface: list[i].group, start: 0, edges: Vec::with_capacity(steps.len()) };
+                for (k, (_, v, uses)) in steps.iter().enumerate() {
+                    let u = &uses[i];
+                    let (f, side) = (u.side / 3, u.side as usize % 3);
+                    let s = &surfaces[u.group as usize];
+                    let e = s.face_edges[groups.local[f as usize] as usize][side];
+                    let start = local(u, *v);
+                    if k == 0 {
+                        run.start = start;
+                    }
+                    run.edges.push(DirectedEdge::new(EdgeId(e), s.edges[e as usize][0] != start));
+                }
+                run
+            })
+            .collect();
+        joints.push(RunJoint { name: None, runs });
+    }
+    joints
+}
+
+/// Joints without edges for copies of a node that no other joint holds together.
+fn touching_nodes(
+    mesh: &TriMesh,
+    groups: &Groups,
+    copies: &Copies,
+    surfaces: &[Surface],
+    joints: &[RunJoint],
+) -> Vec<RunJoint> {
+    let mut offsets = vec![0u32];
+    for s in surfaces {
+        offsets.push(offsets[offsets.len() - 1] + s.positions.len() as u32);
+    }
+    let mut sets = UnionFind::new(offsets[surfaces.len()] as usize);
+    for joint in joints {
+        let nodes = |r: &Run| -> Vec<u32> {
+            let s = &surfaces[r.surface as usize];
+            let offset = offsets[r.surface as usize];
+            std::iter::once(r.start)
+                .chain(r.edges.iter().map(|&d| s.ends(d)[1].0))
+                .map(|v| offset + v)
+                .collect()
+        };
+        let first = nodes(&joint.runs[0]);
+        for run in &joint.runs[1..] {
+            for (&a, b) in first.iter().zip(nodes(run)) {
+                sets.union(a, b);
+            }
+        }
+    }
+    let mut seen: Vec<u32> = vec![NONE; mesh.positions.len()];
+    let mut apart: BTreeMap<u32, Vec<(u32, u32)>> = BTreeMap::new();
+    for (f, face) in mesh.faces.iter().enumerate() {
+        let g = groups.of_face[f];
+        for (i, &v) in face.iter().enumerate() {
+            if copies.set[3 * f + i] != (3 * f + i) as u32 {
+                continue;
+            }
+            let local = surfaces[g as usize].faces[groups.local[f] as usize][i];
+            let node = offsets[g as usize] + local;
+            if seen[v as usize] == NONE {
+                seen[v as usize] = node;
+            } else if sets.union(seen[v as usize], node) {
+                let t = offsets.partition_point(|&o| o <= seen[v as usize]) - 1;
+                let first = (t as u32, seen[v as usize] - offsets[t]);
+                apart.entry(v).or_insert_with(|| vec![first]).push((g, local));
+            }
+        }
+    }
+    apart
+        .into_values()
+        .map(|list| {
+            let run = |(surface, start)| Run { surface, start, edges: Vec::new() };
+            RunJoint { name: None, runs: list.into_iter().map(run).collect() }
+        })
+        .collect()
+}

@@ -1,0 +1,139 @@
+//! Faces of one mesh that cross faces of another, or of the same.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::bvh::{Bvh, Child};
+use super::triangle_pair::{triangles_meet, triangles_meet_beyond_corner, triangles_meet_beyond_side};
+use crate::TriMesh;
+
+/// A mesh prepared for finding the faces of others that cross its own.
+///
+/// Boxes give candidates, exact predicates decide (touching counts as crossing). Faces with corners that are not finite
+/// are left out.
+#[derive(Clone, Debug)]
+pub struct Crossings {
+    bvh: Bvh,
+    positions: Vec<DVec3>,
+    faces: Vec<[u32; 3]>,
+}
+
+/// Faces that one thread handles at a time.
+const CHUNK: usize = 512;
+
+impl Crossings {
+    /// Builds the hierarchy. O(n log n).
+    pub fn new(mesh: &TriMesh) -> Self {
+        Self { bvh: Bvh::new(mesh), positions: mesh.positions.clone(), faces: mesh.faces.clone() }
+    }
+
+    /// All pairs (face of `other`, face of this mesh) that have a point in common, in ascending order. O(n log m) plus
+    /// candidates; on all threads.
+    pub fn faces_crossing(&self, other: &TriMesh) -> Vec<(u32, u32)> {
+        self.collect(other.faces.len(), |f, candidates, pairs| {
+            let triangle = other.corners(f);
+            self.candidates(&triangle, candidates);
+            pairs.extend(
+                candidates.iter().filter(|g| triangles_meet(&triangle, &self.corners(**g))).map(|g| (f, *g)),
+            );
+        })
+    }
+
+    /// All pairs of own faces (smaller number first, ascending) that have more in common than the nodes they share:
+    /// self-intersections, contacts, folds flat onto a neighbour, duplicates.
+    pub fn self_crossing(&self) -> Vec<(u32, u32)> {
+        self.collect(self.faces.len(), |f, candidates, pairs| {
+            self.candidates(&self.corners(f), candidates);
+            pairs.extend(
+                candidates.iter().filter(|g| **g > f && self.own_faces_meet(f, **g)).map(|g| (f, *g)),
+            );
+        })
+    }
+
+    fn collect(
+        &self,
+        faces: usize,
+        find: impl Fn(u32, &mut Vec<u32>, &mut Vec<(u32, u32)>) + Sync,
+    ) -> Vec<(u32, u32)> {
+        let chunks: Vec<Vec<(u32, u32)>> = (0..faces.div_ceil(CHUNK))
+            .into_par_iter()
+            .map(|chunk| {
+                let (mut candidates, mut pairs) = (Vec::new(), Vec::new());
+                for f in chunk * CHUNK..((chunk + 1) * CHUNK).min(faces) {
+                    find(f as u32, &mut candidates, &mut pairs);
+                }
+                pairs
+            })
+            .collect();
+        chunks.concat()
+    }
+
+    fn corners(&self, f: u32) -> [DVec3; 3] {
+        self.faces[f as usize].map(|v| self.positions[v as usize])
+    }
+
+    /// Own faces whose boxes meet the box of `triangle`, ascending.
+    fn candidates(&self, triangle: &[DVec3; 3], found: &mut Vec<u32>) {
+        found.clear();
+        let [a, b, c] = *triangle;
+        if !(a.is_finite() && b.is_finite() && c.is_finite()) || self.bvh.order.is_empty() {
+            return;
+        }
+        let (lo, hi) = (a.min(b).min(c), a.max(b).max(c));
+        let (from, to) = (lo - self.bvh.origin, hi - self.bvh.origin);
+        // Twice the rounding of the differences and of the conversion.
+        let slack = (from.abs().max(to.abs()).max_element() + self.bvh.extent) * f64::from(f32::EPSILON);
+        let (from, to) = ((from - slack).as_vec3().to_array(), (to + slack).as_vec3().to_array());
+        let mut stack = vec![Child::ROOT];
+        while let Some(child) = stack.pop() {
+            match child.get() {
+                Err(node) => {
+                    let node = &self.bvh.nodes[node];
+                    let mut apart = [false; 4];
+                    for axis in 0..3 {
+                        for (apart, (lo, hi)) in
+                            apart.iter_mut().zip(node.lo[axis].iter().zip(&node.hi[axis]))
+                        {
+                            *apart |= (*lo > to[axis]) | (*hi < from[axis]);
+                        }
+                    }
+                    stack.extend((0..4).filter(|k| !apart[*k]).map(|k| node.children[k]));
+                }
+                Ok(leaf) => {
+                    for g in &self.bvh.order[leaf] {
+                        let [a, b, c] = self.corners(*g);
+                        if a.min(b).min(c).cmple(hi).all() && a.max(b).max(c).cmpge(lo).all() {
+                            found.push(*g);
+                        }
+                    }
+                }
+            }
+        }
+        found.sort_unstable();
+    }
+
+    fn own_faces_meet(&self, f: u32, g: u32) -> bool {
+        let (one, other) = (self.faces[f as usize], self.faces[g as usize]);
+        let at = |v: u32| self.positions[v as usize];
+        let is_shared = [0, 1, 2].map(|k| other.contains(&one[k]));
+        let is_shared_too = [0, 1, 2].map(|k| one.contains(&other[k]));
+        let count = |flags: [bool; 3]| flags.iter().filter(|flag| **flag).count();
+        // The corner number `k` places after the first whose flag is `flag`.
+        let find = |flags: [bool; 3], flag: bool| flags.iter().position(|f| *f == flag).unwrap_or(0);
+        let after = |face: [u32; 3], corner: usize, k: usize| at(face[(corner + k) % 3]);
+        match (count(is_shared), count(is_shared_too)) {
+            (0, 0) => triangles_meet(&self.corners(f), &self.corners(g)),
+            (1, 1) => {
+                let (i, k) = (find(is_shared, true), find(is_shared_too, true));
+                let rest = |face, corner| [after(face, corner, 1), after(face, corner, 2)];
+                triangles_meet_beyond_corner(at(one[i]), rest(one, i), rest(other, k))
+            }
+            (2, 2) => {
+                let (i, k) = (find(is_shared, false), find(is_shared_too, false));
+                triangles_meet_beyond_side([after(one, i, 1), after(one, i, 2)], at(one[i]), at(other[k]))
+            }
+            // A node twice in one face, or the same three nodes.
+            _ => true,
+        }
+    }
+}

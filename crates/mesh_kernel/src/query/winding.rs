@@ -1,0 +1,192 @@
+//! The generalised winding number (Jacobson, Kavan, Sorkine 2013), exactly and by a hierarchy with error bounds.
+//!
+//! The hierarchy follows Barill, Dickson, Schmidt, Levin, Jacobson (2018): faces far away act as one dipole with a
+//! first-order correction. Here every approximation carries a bound of its error, so that comparing with a threshold is
+//! certain: where the bound does not decide, the sum is taken more finely, in the end exactly.
+
+use std::f64::consts::TAU;
+
+use glam::{DMat3, DVec3};
+
+use super::bvh::Bvh;
+use crate::TriMesh;
+
+/// How often the mesh winds around `p`: 1 inside and 0 outside a closed mesh with outward faces, in between for meshes
+/// with holes. The sum of all solid angles over 4π, O(faces); see [`WindingNumber`] for many points.
+pub fn winding_number(mesh: &TriMesh, p: DVec3) -> f64 {
+    (0..mesh.faces.len() as u32).map(|f| half_solid_angle(mesh.corners(f), p)).sum::<f64>() / TAU
+}
+
+/// Half the solid angle of a triangle seen from `p`, positive from behind (van Oosterom, Strackee 1983).
+#[inline]
+pub(super) fn half_solid_angle(corners: [DVec3; 3], p: DVec3) -> f64 {
+    let [a, b, c] = corners.map(|v| v - p);
+    let (la, lb, lc) = (a.length(), b.length(), c.length());
+    let numerator = a.dot(b.cross(c));
+    let denominator = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+    if numerator == 0.0 { 0.0 } else { numerator.atan2(denominator) }
+}
+
+/// A winding number and how far it can be off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Winding {
+    /// The number.
+    pub value: f64,
+    /// Bound of its error (apart from rounding).
+    pub error: f64,
+}
+
+/// A mesh prepared for winding numbers at many points.
+#[derive(Clone, Debug)]
+pub struct WindingNumber {
+    bvh: Bvh,
+    triangles: Vec<[DVec3; 3]>,
+    /// Four a node, in the order of its children.
+    moments: Vec<Moments>,
+}
+
+/// What a set of faces looks like from afar; positions relative to the hierarchy's origin.
+#[derive(Clone, Debug)]
+struct Moments {
+    centre: DVec3,
+    /// Farthest corner from the centre.
+    radius: f64,
+    /// Sum of area vectors.
+    dipole: DVec3,
+    /// ∫ (x − centre) nᵀ dA.
+    first: DMat3,
+    /// ∫ |x − centre|² dA: what the error is proportional to.
+    spread: f64,
+}
+
+/// Error that a single set of faces may add in the first attempt; a later attempt has less.
+const FIRST_TOLERANCE: f64 = 2e-3;
+const LAST_TOLERANCE: f64 = 1e-8;
+
+impl WindingNumber {
+    /// Builds the hierarchy. O(n log n).
+    pub fn new(mesh: &TriMesh) -> Self {
+        let bvh = Bvh::new(mesh);
+        let triangles: Vec<[DVec3; 3]> =
+            bvh.order.iter().map(|f| mesh.corners(*f).map(|p| p - bvh.origin)).collect();
+        // Leaves of a node lie behind the leaves of nodes before it in a depth-first order only; ranges are gathered from
+        // the bottom up, children having larger numbers than their parent.
+        let mut members: Vec<Vec<std::ops::Range<usize>>> = vec![Vec::new(); bvh.nodes.len()];
+        let mut moments = vec![Moments::of(&[], &[]); 4 * bvh.nodes.len()];
+        for node in (0..bvh.nodes.len()).rev() {
+            for (slot, child) in bvh.nodes[node].children.iter().enumerate() {
+                let ranges = match child.get() {
+                    Ok(leaf) => vec![leaf],
+                    Err(below) => std::mem::take(&mut members[below]),
+                };
+                moments[4 * node + slot] = Moments::of(&triangles, &ranges);
+                members[node].extend(ranges);
+            }
+            merge(&mut members[node]);
+        }
+        Self { bvh, triangles, moments }
+    }
+
+    /// The winding number about `p`, the error bounded by about `tolerance` times the number of face sets it takes
+    /// (some hundred).
+    pub fn winding(&self, p: DVec3, tolerance: f64) -> Winding {
+        self.sum(p, tolerance, None)
+    }
+
+    /// Whether the winding number about `p` is above `threshold`, with certainty up to rounding of the exact sum.
+    pub fn is_above(&self, p: DVec3, threshold: f64) -> bool {
+        let mut tolerance = FIRST_TOLERANCE;
+        loop {
+            let Winding { value, error } = self.sum(p, tolerance, None);
+            if (value - threshold).abs() > error + 1e-9 || error == 0.0 || value.is_nan() {
+                return value > threshold;
+            }
+            tolerance = if tolerance < LAST_TOLERANCE { 0.0 } else { tolerance / 30.0 };
+        }
+    }
+
+    /// The sum over all faces but `except` (a position in the hierarchy's order is looked up by face number).
+    pub(super) fn sum(&self, p: DVec3, tolerance: f64, except: Option<u32>) -> Winding {
+        let p = p - self.bvh.origin;
+        let (mut angle, mut far, mut error) = (0.0, 0.0, 0.0);
+        let mut stack = [0usize; super::bvh::STACK];
+        let mut height = usize::from(!self.triangles.is_empty());
+        while height > 0 {
+            height -= 1;
+            let node = stack[height];
+            for slot in 0..4 {
+                let set = &self.moments[4 * node + slot];
+                let d = set.centre - p;
+                let d2 = d.length_squared();
+                let length = d2.sqrt();
+                let gap = length - set.radius;
+                let bound = 3.0 * set.spread / (2.0 * TAU * (gap * gap) * (gap * gap));
+                if gap > 0.0 && bound <= tolerance {
+                    let scale = 1.0 / (d2 * length);
+                    let trace = set.first.x_axis.x + set.first.y_axis.y + set.first.z_axis.z;
+                    far += scale * (set.dipole.dot(d) + trace - 3.0 * d.dot(set.first * d) / d2);
+                    error += bound;
+                    continue;
+                }
+                match self.bvh.nodes[node].children[slot].get() {
+                    Err(below) => {
+                        stack[height] = below;
+                        height += 1;
+                    }
+                    Ok(leaf) => {
+                        for k in leaf {
+                            if except.is_none_or(|f| self.bvh.order[k] != f) {
+                                angle += half_solid_angle(self.triangles[k], p);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        Winding { value: angle / TAU + far / (2.0 * TAU), error }
+    }
+}
+
+impl Moments {
+    fn of(triangles: &[[DVec3; 3]], ranges: &[std::ops::Range<usize>]) -> Self {
+        let faces = || ranges.iter().flat_map(|range| &triangles[range.clone()]);
+        let vector = |[a, b, c]: &[DVec3; 3]| 0.5 * (*b - *a).cross(*c - *a);
+        let (mut area, mut centre, mut dipole) = (0.0, DVec3::ZERO, DVec3::ZERO);
+        for face in faces() {
+            let vector = vector(face);
+            let size = vector.length();
+            area += size;
+            centre += (face[0] + face[1] + face[2]) * (size / 3.0);
+            dipole += vector;
+        }
+        let centre = if area > 0.0 { centre / area } else { faces().next().map_or(DVec3::ZERO, |f| f[0]) };
+        let mut set = Self { centre, radius: 0.0, dipole, first: DMat3::ZERO, spread: 0.0 };
+        for face in faces() {
+            let vector = vector(face);
+            let corners = face.map(|p| p - centre);
+            let sum = corners[0] + corners[1] + corners[2];
+            let squares = corners.map(DVec3::length_squared);
+            set.radius = set.radius.max(squares[0].max(squares[1]).max(squares[2]));
+            set.spread +=
+                vector.length() / 12.0 * (squares[0] + squares[1] + squares[2] + sum.length_squared());
+            let third = sum / 3.0;
+            set.first.x_axis += third * vector.x;
+            set.first.y_axis += third * vector.y;
+            set.first.z_axis += third * vector.z;
+        }
+        set.radius = set.radius.sqrt();
+        set
+    }
+}
+
+/// Joins ranges that follow each other.
+fn merge(ranges: &mut Vec<std::ops::Range<usize>>) {
+    ranges.sort_unstable_by_key(|range| range.start);
+    ranges.dedup_by(|next, last| {
+        let follows = last.end == next.start;
+        if follows {
+            last.end = next.end;
+        }
+        follows
+    });
+}
