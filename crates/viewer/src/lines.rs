@@ -136,11 +136,7 @@ pub(crate) fn draw(image: &mut Image, scene: &Scene, depth: &Depth, options: &Re
                 for run in runs(piece, hidden_pass, shown) {
                     match dash {
                         None => painter.cover(&run, width),
-                        Some(dash) => {
-                            for part in crate::painter::dashes(&run, dash) {
-                                painter.cover(&part, width);
-                            }
-                        }
+                        Some(dash) => painter.cover_dashed(&run, width, dash),
                     }
                 }
             }

@@ -92,8 +92,9 @@ pub(crate) struct LightMap {
 }
 
 impl LightMap {
-    /// Casts the rays of all places (`None`: background) and smooths. `key` points to the key light, `reach` is in
-    /// millimetres.
+    /// Light at all places (`None`: background): rays are cast at every `spacing`-th pixel of every `spacing`-th row,
+    /// smoothed there and interpolated between; places that find nobody on their own surface cast their own. `key`
+    /// points to the key light, `reach` is in millimetres.
     pub(crate) fn new(
         blockers: &Blockers,
         places: Vec<Option<Place>>,
@@ -102,23 +103,67 @@ impl LightMap {
         reach: f32,
         key: Vec3,
     ) -> Self {
-        let sky = hemisphere(options.rays.max(1) as usize);
-        let lamp = lamp(options.shadow_rays as usize, key);
-        let rough: Vec<Light> = places
+        let rays = Rays {
+            blockers,
+            sky: hemisphere(options.rays.max(1) as usize),
+            lamp: lamp(options.shadow_rays as usize, key),
+            reach,
+            key,
+        };
+        let spacing = options.spacing.max(1) as usize;
+        if spacing == 1 {
+            return Self::cast(&rays, places, width);
+        }
+        let columns = width.div_ceil(spacing);
+        let rows = (places.len() / width).div_ceil(spacing);
+        let chosen =
+            (0..columns * rows).map(|i| places[i / columns * spacing * width + i % columns * spacing]);
+        let coarse = Self::cast(&rays, chosen.collect(), columns);
+        let light = places
             .par_iter()
             .enumerate()
             .with_min_len(256)
-            .map(|(i, place)| match place {
-                Some(place) => {
-                    let member = (i / width % BLOCK) * BLOCK + i % width % BLOCK;
-                    cast(blockers, place, member, &sky, &lamp, reach, key)
-                }
-                None => Light::FULL,
+            .map(|(i, place)| {
+                let Some(place) = place else { return Light::FULL };
+                let at = [i % width, i / width];
+                coarse.between(at, spacing, place).unwrap_or_else(|| rays.cast(place, at))
             })
+            .collect();
+        Self { places, light, width }
+    }
+
+    /// Casts rays at all places and smooths.
+    fn cast(rays: &Rays, places: Vec<Option<Place>>, width: usize) -> Self {
+        let rough: Vec<Light> = places
+            .par_iter()
+            .enumerate()
+            .with_min_len(64)
+            .map(|(i, place)| place.as_ref().map_or(Light::FULL, |p| rays.cast(p, [i % width, i / width])))
             .collect();
         let mut map = Self { places, light: rough, width };
         map.light = map.smoothed();
         map
+    }
+
+    /// Light at a pixel between this coarser map's pixels, from those of the four around it that see the same
+    /// surface, by nearness.
+    fn between(&self, at: [usize; 2], spacing: usize, place: &Place) -> Option<Light> {
+        let height = self.light.len() / self.width;
+        let (mut ambient, mut key, mut weight) = (0.0, 0.0, 0.0);
+        for v in at[1] / spacing..(at[1] / spacing + 2).min(height) {
+            for u in at[0] / spacing..(at[0] / spacing + 2).min(self.width) {
+                let j = v * self.width + u;
+                if self.places[j].is_some_and(|other| place.alike(&other)) {
+                    let near =
+                        |a: usize, b: usize| 1.0 - (a as f32 - (b * spacing) as f32).abs() / spacing as f32;
+                    let w = near(at[0], u) * near(at[1], v) + 1e-3;
+                    ambient += w * self.light[j].ambient;
+                    key += w * self.light[j].key;
+                    weight += w;
+                }
+            }
+        }
+        (weight > 0.0).then(|| Light { ambient: ambient / weight, key: key / weight })
     }
 
     /// The place that stands for a pixel.
@@ -208,37 +253,41 @@ fn lattice(n: usize) -> Vec<[f32; 2]> {
     (0..n).map(|i| [(i as f32 + 0.5) / n as f32, (i * step % n.max(1)) as f32 / n as f32]).collect()
 }
 
-fn cast(
-    blockers: &Blockers,
-    place: &Place,
-    member: usize,
-    sky: &[(Vec3, f32)],
-    lamp: &[Vec3],
+/// The rays of a picture.
+struct Rays<'a> {
+    blockers: &'a Blockers,
+    sky: Vec<(Vec3, f32)>,
+    lamp: Vec<Vec3>,
     reach: f32,
     key: Vec3,
-) -> Light {
-    let from = place.position + place.normal * blockers.offset;
-    let (a, b) = place.normal.any_orthonormal_pair();
-    let share = BLOCK * BLOCK;
-    let open = |directions: &mut dyn Iterator<Item = bool>| {
-        let (mut all, mut free) = (0u32, 0u32);
-        for blocked in directions {
-            all += 1;
-            free += u32::from(!blocked);
-        }
-        if all == 0 { 1.0 } else { free as f32 / all as f32 }
-    };
-    let ambient =
-        open(
-            &mut sky.iter().skip(member).step_by(share).map(|(d, part)| {
-                blockers.blocked(from, a * d.x + b * d.y + place.normal * d.z, reach * part)
-            }),
-        );
-    let key_light = if place.normal.dot(key) <= -LIGHT_RADIUS {
-        0.0
-    } else {
-        open(&mut lamp.iter().skip(member).step_by(share).map(|d| blockers.blocked(from, *d, f32::MAX)))
-    };
-    // No gap is quite black: light comes back from its walls.
-    Light { ambient: 0.12 + 0.88 * ambient, key: key_light }
+}
+
+impl Rays<'_> {
+    /// Light at a place, from the share of the rays that falls to its pixel.
+    fn cast(&self, place: &Place, at: [usize; 2]) -> Light {
+        let member = (at[1] % BLOCK) * BLOCK + at[0] % BLOCK;
+        let share = BLOCK * BLOCK;
+        let from = place.position + place.normal * self.blockers.offset;
+        let (a, b) = place.normal.any_orthonormal_pair();
+        let open = |blocked: &mut dyn Iterator<Item = bool>| {
+            let (mut all, mut free) = (0u32, 0u32);
+            for blocked in blocked {
+                all += 1;
+                free += u32::from(!blocked);
+            }
+            if all == 0 { 1.0 } else { free as f32 / all as f32 }
+        };
+        let ambient = open(&mut self.sky.iter().skip(member).step_by(share).map(|(d, part)| {
+            let direction = a * d.x + b * d.y + place.normal * d.z;
+            self.blockers.blocked(from, direction, self.reach * part)
+        }));
+        let key = if place.normal.dot(self.key) <= -LIGHT_RADIUS {
+            0.0
+        } else {
+            let lamp = self.lamp.iter().skip(member).step_by(share);
+            open(&mut lamp.map(|d| self.blockers.blocked(from, *d, f32::MAX)))
+        };
+        // No gap is quite black: light comes back from its walls.
+        Light { ambient: 0.12 + 0.88 * ambient, key }
+    }
 }

@@ -103,12 +103,17 @@ impl<'a> Painter<'a> {
         match dash {
             None => self.cover(points, width),
             Some(dash) => {
-                for piece in dashes(points, dash) {
-                    self.cover(&piece, width);
-                }
+                self.cover_dashed(points, width, dash);
             }
         }
         self.flush(color, alpha);
+    }
+
+    /// Covers the dashes of a polyline; their round ends lie within the dash's length.
+    pub(crate) fn cover_dashed(&mut self, points: &[Point], width: f32, [dash, gap]: Dash) {
+        for piece in dashes(points, [(dash - width).max(0.01), gap + width]) {
+            self.cover(&piece, width);
+        }
     }
 
     /// Fills a disc; `radius` in pixels.
@@ -207,7 +212,7 @@ fn blend(image: &mut Image, i: usize, color: Color, alpha: f32) {
 }
 
 /// Cuts a polyline into its dashes.
-pub(crate) fn dashes(points: &[Point], [dash, gap]: Dash) -> Vec<Vec<Point>> {
+fn dashes(points: &[Point], [dash, gap]: Dash) -> Vec<Vec<Point>> {
     let mut pieces = Vec::new();
     if !(dash > 0.0 && gap > 0.0) {
         return vec![points.to_vec()];

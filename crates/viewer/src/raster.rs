@@ -162,10 +162,10 @@ fn clip<P: Copy>(polygon: &[P], inside: impl Fn(&P) -> f64, between: impl Fn(P, 
 
 /// A face outside the picture, without area in it, or with a broken plane has nothing to show.
 fn screen_face(face: u32, s: [OnScreen; 3], limits: [f64; 2]) -> Option<ScreenFace> {
-    for axis in 0..2 {
+    for (axis, limit) in limits.into_iter().enumerate() {
         let values = s.map(|p| p.at[axis]);
         let (lo, hi) = (values[0].min(values[1]).min(values[2]), values[0].max(values[1]).max(values[2]));
-        if !(hi >= 0.0 && lo <= limits[axis]) {
+        if !(hi >= 0.0 && lo <= limit) {
             return None;
         }
     }

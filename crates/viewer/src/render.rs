@@ -73,17 +73,19 @@ impl RenderOptions {
 /// Soft shadows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Occlusion {
-    /// Rays to the sky a pixel, 1 to 256; sixteen pixels share theirs.
+    /// Rays to the sky a casting pixel, 1 to 256; sixteen pixels share theirs.
     pub rays: u32,
-    /// Rays to the key light a pixel, 0 to 64 (0: no cast shadows).
+    /// Rays to the key light a casting pixel, 0 to 64 (0: no cast shadows).
     pub shadow_rays: u32,
     /// How far neighbours darken each other, as a part of the scene's diagonal.
     pub reach: f64,
+    /// Rays are cast at every so-many-th pixel of every so-many-th row, 1 to 8, and interpolated between.
+    pub spacing: u32,
 }
 
 impl Default for Occlusion {
     fn default() -> Self {
-        Self { rays: 8, shadow_rays: 2, reach: 0.2 }
+        Self { rays: 8, shadow_rays: 3, reach: 0.2, spacing: 2 }
     }
 }
 
@@ -190,6 +192,7 @@ fn check_options(options: &RenderOptions) -> Result<(), RenderError> {
     if let Some(occlusion) = &options.occlusion {
         within("rays", f64::from(occlusion.rays), 1.0, 256.0, "it must be 1 to 256")?;
         within("shadow rays", f64::from(occlusion.shadow_rays), 0.0, 64.0, "it must be 0 to 64")?;
+        within("spacing", f64::from(occlusion.spacing), 1.0, 8.0, "it must be 1 to 8")?;
         within("reach", occlusion.reach, 0.0, 10.0, "it must be 0 to 10 diagonals")?;
     }
     Ok(())
