@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::Body;
 use super::carry::Piece;
-use super::ids::{DirectedEdge, EdgeId, NONE, SurfaceId};
-use super::surface::Surface;
+use super::ids::{ChainId, DirectedEdge, EdgeId, NONE, SurfaceId};
+use super::surface::{NO_CHAIN, Surface, chain_slot};
 
 /// Why a body was not split.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -181,7 +181,7 @@ fn split_surface(s: &mut Surface, midpoints: Option<&[DVec3]>) -> SurfaceSplit {
         edge_faces.extend_from_slice(&[[4 * f, centre], [4 * f + 1, centre], [4 * f + 2, centre]]);
     }
 
-    let mut edge_chain = vec![NONE; new_edges.len()];
+    let mut edge_chain = vec![NO_CHAIN; new_edges.len()];
     for (c, chain) in s.chains.iter_mut().enumerate() {
         let mut halves = Vec::with_capacity(2 * chain.edges.len());
         for d in &chain.edges {
@@ -189,7 +189,7 @@ fn split_surface(s: &mut Surface, midpoints: Option<&[DVec3]>) -> SurfaceSplit {
             let e = d.edge().0;
             for half in [2 * e + back, 2 * e + 1 - back] {
                 halves.push(DirectedEdge::new(EdgeId(half), d.is_reversed()));
-                edge_chain[half as usize] = c as u32;
+                edge_chain[half as usize] = chain_slot(ChainId(c as u32));
             }
         }
         chain.edges = halves;

@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::Body;
 use super::carry::Piece;
-use super::ids::{DirectedEdge, EdgeId, FaceId, NONE, SurfaceId};
-use super::surface::Surface;
+use super::ids::{ChainId, DirectedEdge, EdgeId, FaceId, NONE, SurfaceId};
+use super::surface::{NO_CHAIN, Surface};
 
 /// Why a face was not split.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -234,10 +234,10 @@ impl Plan {
     }
 
     fn lengthen_chains(&self, s: &mut Surface, first_half: u32) {
-        let chains: BTreeSet<u32> =
-            self.edges.iter().map(|&e| s.edge_chain[e as usize]).filter(|&c| c != NONE).collect();
+        let chains: BTreeSet<ChainId> =
+            self.edges.iter().filter_map(|&e| s.edge_chain(EdgeId(e))).collect();
         for c in chains {
-            let old = std::mem::take(&mut s.chains[c as usize].edges);
+            let old = std::mem::take(&mut s.chains[c.index()].edges);
             let mut edges = Vec::with_capacity(old.len() + self.edges.len());
             for d in old {
                 match self.place(d.edge().0) {
@@ -248,7 +248,7 @@ impl Plan {
                     }
                 }
             }
-            s.chains[c as usize].edges = edges;
+            s.chains[c.index()].edges = edges;
         }
     }
 }
@@ -283,7 +283,7 @@ impl Cutting {
         for cut in &self.cuts {
             s.edges.push(cut.map(|p| frame.nodes[p as usize]));
             s.edge_faces.push([NONE; 2]);
-            s.edge_chain.push(NONE);
+            s.edge_chain.push(NO_CHAIN);
         }
         for (k, child) in self.children.iter().enumerate() {
             let face = if k == 0 { f } else { faces + k as u32 - 1 };

@@ -41,19 +41,20 @@ fn chains(id: SurfaceId, s: &Surface, defects: &mut Vec<Defect>) {
     }
     found.sort_unstable();
     let mut rest = &found[..];
-    for (e, &c) in s.edge_chain.iter().enumerate() {
-        let edge = EdgeId(e as u32);
+    for e in 0..s.edges.len() as u32 {
+        let edge = EdgeId(e);
         let n = rest.iter().take_while(|(x, _)| *x == edge).count();
         let (own, others) = rest.split_at(n);
         rest = others;
+        let recorded = s.edge_chain(edge);
         let fits = match own {
-            [] => c == NONE,
-            [(_, only)] => only.0 == c,
+            [] => recorded.is_none(),
+            [(_, only)] => recorded == Some(*only),
             _ => false,
         };
         if !fits {
             let found = own.iter().map(|(_, c)| *c).collect();
-            defects.push(Defect::EdgeChain { surface: id, edge, recorded: s.edge_chain(edge), found });
+            defects.push(Defect::EdgeChain { surface: id, edge, recorded, found });
         }
     }
 }
