@@ -1,5 +1,8 @@
 //! Bodies: adjacency, splits, checks, counts. Throughput is in the elements that each bench names.
 
+// A bench speaks to the person who runs it.
+#![allow(clippy::print_stdout)]
+
 use std::hint::black_box;
 
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
@@ -54,7 +57,9 @@ fn body(c: &mut Criterion) {
     group.sample_size(20);
     group.throughput(Throughput::Elements(triangles));
     let specs = [spec(&mesh)];
-    group.bench_function("build: triangles of one surface", |b| b.iter(|| Body::build(black_box(&specs), &[])));
+    group.bench_function("build: triangles of one surface", |b| {
+        b.iter(|| Body::build(black_box(&specs), &[]))
+    });
     group.bench_function("from_tri_mesh: triangles", |b| b.iter(|| Body::from_tri_mesh(black_box(&mesh))));
     let grouped = strips(316);
     group.bench_function("from_tri_mesh, 8 joined strips: triangles", |b| {
@@ -69,7 +74,11 @@ fn body(c: &mut Criterion) {
         b.iter_batched(|| one.clone(), |mut body| body.split_all(None).map(|_| body), BatchSize::LargeInput);
     });
     group.bench_function("split_all, 8 joined strips: new triangles", |b| {
-        b.iter_batched(|| joined.clone(), |mut body| body.split_all(None).map(|_| body), BatchSize::LargeInput);
+        b.iter_batched(
+            || joined.clone(),
+            |mut body| body.split_all(None).map(|_| body),
+            BatchSize::LargeInput,
+        );
     });
     group.throughput(Throughput::Elements(1000));
     group.bench_function("split_face: faces", |b| {

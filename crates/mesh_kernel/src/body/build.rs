@@ -155,7 +155,9 @@ pub enum BuildError {
         distance: f64,
     },
     /// An edge in two joints, or twice in one.
-    #[error("joint {joint}: the edge of nodes {nodes:?} on surface `{surface}` lies on joint {other} already")]
+    #[error(
+        "joint {joint}: the edge of nodes {nodes:?} on surface `{surface}` lies on joint {other} already"
+    )]
     EdgeTaken {
         /// Joint.
         joint: JointLabel,
@@ -245,11 +247,8 @@ impl Body {
     /// Loops, chains, joints and radial orders for surfaces that have their edges.
     pub(crate) fn assemble(surfaces: Vec<Surface>, joints: Vec<RunJoint>) -> Result<Self, BuildError> {
         let mut body = Body { surfaces, joints: Vec::with_capacity(joints.len()) };
-        let labels: Vec<JointLabel> = joints
-            .iter()
-            .enumerate()
-            .map(|(index, j)| JointLabel { index, name: j.name.clone() })
-            .collect();
+        let labels: Vec<JointLabel> =
+            joints.iter().enumerate().map(|(index, j)| JointLabel { index, name: j.name.clone() }).collect();
         let cycles: Vec<_> = body.surfaces.iter().map(Surface::boundary_cycles).collect();
         let places: Vec<LoopPlaces> =
             body.surfaces.iter().zip(&cycles).map(|(s, c)| LoopPlaces::new(s.edges.len(), c)).collect();

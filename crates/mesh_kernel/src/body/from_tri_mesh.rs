@@ -94,7 +94,7 @@ impl Body {
         let (uses, joint_edges) = edge_uses(&edges, &groups, mesh);
         // Corners of a face that are one node of the surface.
         let copies = Copies::new(mesh, &groups, &edges, &uses, &joint_edges);
-        let surfaces = make_surfaces(mesh, &groups, &copies, &edges, &uses)?;
+        let surfaces = make_surfaces(mesh, &groups, &copies, &edges, (&uses, &joint_edges))?;
         let mut joints = trace_joints(mesh, &groups, &edges, &uses, &surfaces);
         joints.extend(touching_nodes(mesh, &groups, &copies, &surfaces, &joints));
         Self::assemble(surfaces, joints)
@@ -247,9 +247,8 @@ impl Copies {
             place[c as usize] = k as u32;
         }
         let mut sets = UnionFind::new(listed.len());
-        let corner_at = |f: u32, v: u32| {
-            3 * f + mesh.faces[f as usize].iter().position(|&n| n == v).unwrap_or(0) as u32
-        };
+        let corner_at =
+            |f: u32, v: u32| 3 * f + mesh.faces[f as usize].iter().position(|&n| n == v).unwrap_or(0) as u32;
         let mut join = |s: u32, t: u32| {
             for v in [node(s as usize), mesh.faces[s as usize / 3][(s as usize + 1) % 3]] {
                 if at_joint[v as usize] {
@@ -341,7 +340,7 @@ fn make_surfaces(
     groups: &Groups,
     copies: &Copies,
     edges: &MeshEdges,
-    uses: &Uses,
+    (uses, joint_edges): (&Uses, &[bool]),
 ) -> Result<Vec<Surface>, BuildError> {
     let mut surfaces: Vec<Surface> =
         groups.names.iter().map(|n| Surface { name: n.clone(), ..Surface::default() }).collect();
@@ -365,7 +364,7 @@ fn make_surfaces(
         let faces = &face_of[g];
         let separate = |f: u32, i: usize| {
             let e = edges.of_side[3 * faces[f as usize] as usize + i];
-            uses.get(&e).is_some_and(|list| list.iter().any(|u| u.group == g as u32 && !u.inner))
+            joint_edges[e as usize] && uses[&e].iter().any(|u| u.group == g as u32 && !u.inner)
         };
         s.build_edges(separate).map_err(|c| BuildError::EdgeConflict {
             surface: groups.names[g].clone(),
@@ -463,7 +462,8 @@ fn trace_joints(
         steps.extend(ahead);
         let runs = (0..list.len())
             .map(|i| {
-                let mut run = Run { surface: list[i].group, start: 0, edges: Vec::with_capacity(steps.len()) };
+                let mut run =
+                    Run { surface: list[i].group, start: 0, edges: Vec::with_capacity(steps.len()) };
                 for (k, (_, v, uses)) in steps.iter().enumerate() {
                     let u = &uses[i];
                     let (f, side) = (u.side / 3, u.side as usize % 3);

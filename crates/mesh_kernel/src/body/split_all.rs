@@ -115,8 +115,7 @@ const CHILDREN: [[[f64; 3]; 3]; 4] = [
 
 fn split_surface(s: &mut Surface, midpoints: Option<&[DVec3]>) -> SurfaceSplit {
     let (nodes, edges, faces) = (s.positions.len(), s.edges.len(), s.faces.len());
-    let split =
-        SurfaceSplit { old_nodes: nodes as u32, old_edges: edges as u32, old_faces: faces as u32 };
+    let split = SurfaceSplit { old_nodes: nodes as u32, old_edges: edges as u32, old_faces: faces as u32 };
     if !s.attribute_nodes.is_empty() {
         carry_attributes(s, &split);
     }
@@ -155,7 +154,13 @@ fn split_surface(s: &mut Surface, midpoints: Option<&[DVec3]>) -> SurfaceSplit {
                 return [NONE; 2];
             }
             let [p, q, _] = s.face_edges[f as usize];
-            let i = if p == e as u32 { 0 } else if q == e as u32 { 1 } else { 2 };
+            let i = if p == e as u32 {
+                0
+            } else if q == e as u32 {
+                1
+            } else {
+                2
+            };
             [4 * f + i, 4 * f + if i == 2 { 0 } else { i + 1 }]
         };
         let ([left_a, left_b], [right_b, right_a]) = (side(left), side(right));

@@ -19,7 +19,13 @@ fn chains(id: SurfaceId, s: &Surface, defects: &mut Vec<Defect>) {
         for (at, &d) in chain.edges.iter().enumerate() {
             let [start, end] = s.ends(d);
             if start != expected {
-                defects.push(Defect::ChainBroken { surface: id, chain: chain_id, at, expected, found: start });
+                defects.push(Defect::ChainBroken {
+                    surface: id,
+                    chain: chain_id,
+                    at,
+                    expected,
+                    found: start,
+                });
             }
             expected = end;
             found.push((d.edge(), chain_id));
@@ -35,7 +41,13 @@ fn chains(id: SurfaceId, s: &Surface, defects: &mut Vec<Defect>) {
             if !fits {
                 let faces = s.edge_faces[d.edge().index()];
                 let place = if chain.on_loop.is_some() { "a loop" } else { "the inside" };
-                defects.push(Defect::ChainPlace { surface: id, chain: chain_id, edge: d.edge(), faces, place });
+                defects.push(Defect::ChainPlace {
+                    surface: id,
+                    chain: chain_id,
+                    edge: d.edge(),
+                    faces,
+                    place,
+                });
             }
         }
     }

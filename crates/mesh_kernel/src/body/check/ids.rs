@@ -37,7 +37,13 @@ fn lengths(id: SurfaceId, s: &Surface, defects: &mut Vec<Defect>) {
     rule("edges of faces", s.face_edges.len(), faces);
 }
 
-fn named(of: impl Fn() -> String, what: &'static str, id: u32, limit: usize, defects: &mut Vec<Defect>) -> bool {
+fn named(
+    of: impl Fn() -> String,
+    what: &'static str,
+    id: u32,
+    limit: usize,
+    defects: &mut Vec<Defect>,
+) -> bool {
     let known = (id as usize) < limit;
     if !known {
         defects.push(Defect::UnknownId { of: of(), what, id, limit });

@@ -5,8 +5,8 @@ use glam::{DVec2, DVec3};
 use super::Defect;
 use crate::body::surface::{NO_CHAIN, chain_slot};
 use crate::body::{
-    AttributeEdge, AttributeNode, AttributeNodeId, Body, ChainId, ChainSpec, DirectedEdge, EdgeId, FaceId, JointId,
-    JointSpec, LoopId, NONE, NodeId, SurfaceId, SurfaceSpec,
+    AttributeEdge, AttributeNode, AttributeNodeId, Body, ChainId, ChainSpec, DirectedEdge, EdgeId, FaceId,
+    JointId, JointSpec, LoopId, NONE, NodeId, SurfaceId, SurfaceSpec,
 };
 
 /// Three flaps of two faces on one joint, split once, with an attribute line on the first.
