@@ -22,6 +22,7 @@ fn body(positions: &[[f64; 3]], facets: &[&[u32]]) -> Body {
 /// (components, cycles, voids), the same before and after a split, with the identity.
 fn shape(mut body: Body) -> (i64, i64, i64) {
     let before = body.counts();
+    assert_eq!(body.check(), []);
     assert!(before.identity_holds(), "{before}");
     body.split_all(None).unwrap();
     let Counts { c, ch, cc, .. } = body.counts();
@@ -46,10 +47,22 @@ const CUBE_FACETS: [&[u32]; 6] =
 #[test]
 fn extruded_y() {
     let y = body(
-        &[[0., 0., 0.], [0., 0., 1.], [0., -1., 0.], [0., -1., 1.], [1., 1., 0.], [1., 1., 1.], [-1., 1., 0.], [-1., 1., 1.]],
+        &[
+            [0., 0., 0.],
+            [0., 0., 1.],
+            [0., -1., 0.],
+            [0., -1., 1.],
+            [1., 1., 0.],
+            [1., 1., 1.],
+            [-1., 1., 0.],
+            [-1., 1., 1.],
+        ],
         &[&[0, 1, 3, 2], &[0, 1, 5, 4], &[0, 1, 7, 6]],
     );
     assert_eq!(y.free_edges().len(), 9);
+    // Three lines from one end of the joint to the other.
+    let lines = y.boundary_loops();
+    assert!(lines.len() == 3 && lines.iter().all(|l| !l.is_closed() && l.edges.len() == 3), "{lines:?}");
     assert_eq!(y.volume(), None);
     assert_eq!(y.counts().v, 8);
     assert_eq!(shape(y), (1, 0, 0));
@@ -59,6 +72,8 @@ fn extruded_y() {
 fn corner_of_three_facets() {
     let corner = body(&CUBE, &[CUBE_FACETS[0], CUBE_FACETS[2], CUBE_FACETS[5]]);
     assert_eq!((corner.counts().v, corner.free_edges().len()), (7, 6));
+    let rim = corner.boundary_loops();
+    assert!(rim.len() == 1 && rim[0].is_closed() && rim[0].edges.len() == 6, "{rim:?}");
     assert_eq!(shape(corner), (1, 0, 0));
 }
 
@@ -246,6 +261,7 @@ fn shared_sheets_have_the_counts_of_their_table() {
         let number = |key: &str| row[key].as_i64().unwrap();
         let counts = body.counts();
         assert!(counts.identity_holds(), "{name}: {counts}");
+        assert_eq!(body.check(), [], "{name}");
         assert_eq!(counts.v, number("vertices"), "{name}");
         assert_eq!(counts.e, number("edges"), "{name}");
         assert_eq!(counts.f, number("triangles"), "{name}");

@@ -36,6 +36,7 @@ mod chain;
 mod check;
 mod complex;
 mod counts;
+mod free_boundary;
 mod from_tri_mesh;
 mod homology;
 mod ids;
@@ -53,7 +54,8 @@ pub use attribute::{AttributeEdge, AttributeError, AttributeNode};
 pub use build::{BuildError, ChainSpec, JOINT_SNAP, JointLabel, JointSpec, SurfaceSpec};
 pub use chain::{Chain, Loop};
 pub use check::Defect;
-pub use counts::{Counts, FreeEdge};
+pub use counts::Counts;
+pub use free_boundary::{BoundaryLine, FreeEdge};
 pub use ids::{
     AttributeEdgeId, AttributeNodeId, ChainId, DirectedEdge, EdgeId, FaceId, JointId, LoopId, NONE, NodeId,
     SurfaceId,
