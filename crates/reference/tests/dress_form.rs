@@ -3,7 +3,7 @@
 use mesh_kernel::TriMesh;
 use reference::dress_form::{DressForm, FormOptions, Measurements, Preset, presets};
 
-/// Length of the convex hull of the section at height `y` (gift wrapping, for independence).
+/// Length of the convex hull of the section at height `y`, by the extreme points in 720 directions.
 fn tape(mesh: &TriMesh, y: f64) -> f64 {
     let mut points: Vec<(f64, f64)> = Vec::new();
     for f in 0..mesh.faces.len() as u32 {
@@ -16,24 +16,18 @@ fn tape(mesh: &TriMesh, y: f64) -> f64 {
             }
         }
     }
-    let Some(first) = points.iter().copied().reduce(|a, b| if b < a { b } else { a }) else { return 0.0 };
-    let (mut at, mut length) = (first, 0.0);
-    for _ in 0..points.len() {
-        let mut next = points[0];
-        for &p in &points {
-            let cross = (next.0 - at.0) * (p.1 - at.1) - (next.1 - at.1) * (p.0 - at.0);
-            let far = (p.0 - at.0).hypot(p.1 - at.1) > (next.0 - at.0).hypot(next.1 - at.1);
-            if next == at || cross < 0.0 || (cross == 0.0 && far) {
-                next = p;
-            }
-        }
-        length += (next.0 - at.0).hypot(next.1 - at.1);
-        at = next;
-        if at == first {
-            break;
-        }
+    let turns = 720;
+    let mut corners: Vec<(f64, f64)> = Vec::new();
+    for k in 0..turns {
+        let (s, c) = (std::f64::consts::TAU * f64::from(k) / f64::from(turns)).sin_cos();
+        let far = points.iter().copied().max_by(|a, b| (a.0 * c + a.1 * s).total_cmp(&(b.0 * c + b.1 * s)));
+        corners.extend(far);
     }
-    length
+    corners.dedup();
+    (0..corners.len()).map(|i| {
+        let (a, b) = (corners[i], corners[(i + 1) % corners.len()]);
+        (b.0 - a.0).hypot(b.1 - a.1)
+    }).sum()
 }
 
 fn build(m: &Measurements) -> DressForm {

@@ -96,9 +96,11 @@ impl DressForm {
         let edge = (surface / options.triangles as f64 / (0.25 * 3.0_f64.sqrt())).sqrt();
         let mut half = half_form(&field, edge * 0.95);
         remesh::remesh(&mut half, &field, edge, 5);
-        for _ in 0..4 {
-            let correction = tape::level_extremes(&half, &field, &resolved);
-            tape::warp(&mut half, &field, &correction);
+        for round in 0..6 {
+            // The extremes first; what is left at the levels themselves last.
+            let factor = if round < 4 { tape::level_extremes } else { tape::correction };
+            let factor = factor(&half, &field, &resolved);
+            tape::warp(&mut half, &field, &factor);
         }
         tape::check(&half, &levels, &resolved)?;
         let (mesh, labels) = mirrored(&half);

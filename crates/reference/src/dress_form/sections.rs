@@ -118,8 +118,8 @@ fn depths(figure: Figure) -> [[f64; 2]; 6] {
 fn rib_shares(figure: Figure) -> [f64; 2] {
     match figure {
         Figure::Woman => [0.45, 0.43],
-        Figure::Man => [1.0, 0.55],
-        Figure::Child => [1.0, 0.40],
+        Figure::Man => [1.0, 0.80],
+        Figure::Child => [1.0, 0.72],
     }
 }
 
