@@ -1,1 +1,164 @@
 //! Dress forms from tape measurements.
+
+mod clip;
+mod curve;
+mod error;
+mod field;
+mod hull;
+mod levels;
+mod measurements;
+mod patch;
+mod polygonize;
+mod presets;
+mod remesh;
+mod sections;
+mod tape;
+
+pub use error::FormError;
+pub use levels::{HEADLESS_HEIGHT_RATIO, Levels};
+pub use measurements::{Figure, HEIGHT_RANGE, Measurements, Resolved};
+pub use presets::{Preset, presets};
+
+use mesh_kernel::TriMesh;
+use mesh_kernel::glam::DVec3;
+
+use field::Field;
+use patch::Patch;
+use polygonize::Bounds;
+
+/// How to build a form.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FormOptions {
+    /// A plain head on the neck instead of the neck plate: the mesh is then as high as the person.
+    pub head: bool,
+    /// About how many triangles the mesh gets.
+    pub triangles: usize,
+}
+
+impl Default for FormOptions {
+    fn default() -> Self {
+        Self { head: false, triangles: 22_000 }
+    }
+}
+
+/// Fewest and most triangles of [`FormOptions::triangles`].
+pub const TRIANGLES: [usize; 2] = [6_000, 200_000];
+
+/// A flat end of the form.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plate {
+    /// `left_arm`, `right_arm`, `neck`, `left_ankle`, `right_ankle`.
+    pub name: &'static str,
+    /// A point of its plane, mm.
+    pub origin: DVec3,
+    /// Unit normal out of the form.
+    pub normal: DVec3,
+    /// Faces of the mesh that lie in it.
+    pub faces: Vec<u32>,
+}
+
+/// A dress form.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DressForm {
+    /// Closed, of genus 0, mirrored exactly about x = 0; millimetres, y up, facing +z, its left at +x, on the floor y = 0.
+    pub mesh: TriMesh,
+    /// Every measurement used, given and derived, cm.
+    pub measurements: Resolved,
+    /// Where they are.
+    pub levels: Levels,
+    /// The flat ends.
+    pub plates: Vec<Plate>,
+}
+
+impl DressForm {
+    /// Builds the form.
+    ///
+    /// # Errors
+    /// [`FormError`] when the measurements are not of a person, or the wanted size of the mesh is out of range.
+    pub fn build(measurements: &Measurements, options: &FormOptions) -> Result<Self, FormError> {
+        let [low, high] = TRIANGLES;
+        if !(low..=high).contains(&options.triangles) {
+            return Err(FormError::Resolution { triangles: options.triangles, low, high });
+        }
+        let resolved = measurements.resolve()?;
+        let mut field = Field::new(&resolved, options.head);
+        let levels = field.levels;
+
+        // A coarse form first: how far do its girths miss, with all parts joined?
+        let coarse = half_form(&field, levels.stature / 70.0);
+        let correction = tape::correction(&coarse, &field, &resolved);
+        field.sections.scale(|y| correction.get(y));
+
+        let surface = 2.0 * remesh::area(&coarse);
+        let edge = (surface / options.triangles as f64 / (0.25 * 3.0_f64.sqrt())).sqrt();
+        let mut half = half_form(&field, edge * 0.95);
+        remesh::remesh(&mut half, &field, edge, 5);
+        for _ in 0..4 {
+            let correction = tape::correction(&half, &field, &resolved);
+            tape::warp(&mut half, &field, &correction);
+        }
+        tape::check(&half, &levels, &resolved)?;
+        let (mesh, labels) = mirrored(&half);
+        let plates = plates(&mesh, &labels, &field);
+        Ok(Self { mesh, measurements: resolved, levels, plates })
+    }
+}
+
+/// Half the surface, cut at the plates, triangles as they come.
+fn half_form(field: &Field, cell: f64) -> Patch {
+    let h = field.levels.stature;
+    let margin = 2.5 * cell;
+    let (width, z) = field.extent();
+    let bounds = Bounds {
+        half_width: width + margin,
+        y: [-margin - cell, field.levels.top + margin + 0.02 * h],
+        z: [z[0] - margin, z[1] + margin],
+    };
+    clip::clip(polygonize::polygonize(|p| field.closed(p, margin), &bounds, cell), &field.cuts)
+}
+
+/// The whole mesh and the plate label of every face; nodes of the plane of symmetry are shared.
+fn mirrored(half: &Patch) -> (TriMesh, Vec<u8>) {
+    let mut positions = half.positions.clone();
+    let other: Vec<u32> = half
+        .positions
+        .iter()
+        .enumerate()
+        .map(|(v, p)| {
+            if half.on_border(v as u32) {
+                return v as u32;
+            }
+            positions.push(DVec3::new(-p.x, p.y, p.z));
+            positions.len() as u32 - 1
+        })
+        .collect();
+    let mut faces = half.faces.clone();
+    faces.extend(half.faces.iter().map(|&[a, b, c]| [other[a as usize], other[c as usize], other[b as usize]]));
+    let mut labels = half.label.clone();
+    labels.extend_from_slice(&half.label);
+    (TriMesh::new(positions, faces), labels)
+}
+
+fn plates(mesh: &TriMesh, labels: &[u8], field: &Field) -> Vec<Plate> {
+    let of = |name: &'static str, cut: usize, side: f64| {
+        let plane = &field.cuts[cut];
+        let mirror = DVec3::new(if side < 0.0 { -1.0 } else { 1.0 }, 1.0, 1.0);
+        let faces: Vec<u32> = (0..labels.len() as u32)
+            .filter(|&f| {
+                let x: f64 = mesh.corners(f).iter().map(|p| p.x).sum();
+                labels[f as usize] as usize == cut + 1 && (side == 0.0 || x * side > 0.0)
+            })
+            .collect();
+        Plate { name, origin: plane.origin * mirror, normal: plane.normal * mirror, faces }
+    };
+    let mut plates = vec![
+        of("left_ankle", 0, 1.0),
+        of("right_ankle", 0, -1.0),
+        of("left_arm", field::ARM, 1.0),
+        of("right_arm", field::ARM, -1.0),
+    ];
+    if field.cuts.len() > 2 {
+        plates.push(of("neck", 2, 0.0));
+    }
+    plates
+}
