@@ -22,7 +22,7 @@ impl EdgeIndex {
     }
 
     #[inline]
-    fn push(&mut self, a: u32, b: u32) {
+    pub(super) fn push(&mut self, a: u32, b: u32) {
         let (lo, hi) = if a < b { (a, b) } else { (b, a) };
         self.link.push([hi, self.head[lo as usize]]);
         self.head[lo as usize] = self.link.len() as u32 - 1;

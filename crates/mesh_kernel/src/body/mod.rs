@@ -33,6 +33,7 @@ mod attribute;
 mod build;
 mod carry;
 mod chain;
+mod check;
 mod complex;
 mod counts;
 mod from_tri_mesh;
@@ -43,6 +44,7 @@ mod radial;
 mod radial_order;
 mod shells;
 mod split_all;
+mod split_face;
 mod surface;
 mod weld;
 
@@ -50,6 +52,7 @@ pub use adjacency::EdgeIndex;
 pub use attribute::{AttributeEdge, AttributeError, AttributeNode};
 pub use build::{BuildError, ChainSpec, JOINT_SNAP, JointLabel, JointSpec, SurfaceSpec};
 pub use chain::{Chain, Loop};
+pub use check::Defect;
 pub use counts::{Counts, FreeEdge};
 pub use ids::{
     AttributeEdgeId, AttributeNodeId, ChainId, DirectedEdge, EdgeId, FaceId, JointId, LoopId, NONE, NodeId,
@@ -57,6 +60,7 @@ pub use ids::{
 };
 pub use joint::{Joint, JointUse, Sheet, Side};
 pub use split_all::{SplitError, SplitMap, SurfaceSplit};
+pub use split_face::{FaceSplit, SplitEdge, SplitFaceError};
 pub use surface::{Star, Surface};
 pub use weld::Weld;
 

@@ -43,11 +43,13 @@ fn same_side(a: DVec3, b: DVec3, p: DVec3, q: DVec3) -> bool {
     false
 }
 
+const NOWHERE: u8 = 4;
+
 /// Where `q` lies seen from `p`, turning by the right hand about `a` → `b`: 0 at `p` itself, 1 within the first half
 /// turn, 2 opposite, 3 within the second half, 4 nowhere (on the axis).
 fn quarter(a: DVec3, b: DVec3, p: DVec3, q: DVec3) -> u8 {
     if collinear(a, b, q) {
-        return 4;
+        return NOWHERE;
     }
     match turn(a, b, p, q) {
         t if t > 0.0 => 1,
@@ -57,11 +59,10 @@ fn quarter(a: DVec3, b: DVec3, p: DVec3, q: DVec3) -> u8 {
     }
 }
 
-/// Order of the sheets about the axis `a` → `b`, `apexes` being the third corners of their triangles: clockwise for
+/// Places of the sheets about the axis `a` → `b`, `apexes` being the third corners of their triangles: clockwise for
 /// one who looks along the axis, starting with the first sheet that is not degenerate.
 ///
-/// Ties (sheets that leave in exactly the same direction) and degenerate sheets keep the order of `apexes`; degenerate
-/// sheets come last. `None` where `a` and `b` coincide or every sheet is degenerate. O(k log k) exact predicates.
+/// `None` where `a` and `b` coincide or every sheet is degenerate. O(k log k) exact predicates.
 pub(crate) fn radial_order(a: DVec3, b: DVec3, apexes: &[DVec3]) -> Option<Radial> {
     let &first = apexes.iter().find(|&&p| !collinear(a, b, p))?;
     let mut order: Vec<(u8, usize)> =
@@ -77,16 +78,41 @@ pub(crate) fn radial_order(a: DVec3, b: DVec3, apexes: &[DVec3]) -> Option<Radia
         })
     };
     order.sort_by(compare);
-    let tied = order.windows(2).any(|w| compare(&w[0], &w[1]) == Ordering::Equal);
-    Some(Radial { order: order.into_iter().map(|(_, i)| i as u32).collect(), tied })
+    let mut ranks = vec![None; apexes.len()];
+    let mut rank = 0;
+    for (k, x) in order.iter().enumerate() {
+        if k > 0 && compare(&order[k - 1], x) != Ordering::Equal {
+            rank += 1;
+        }
+        ranks[x.1] = (x.0 != NOWHERE).then_some(rank);
+    }
+    Some(Radial { order: order.into_iter().map(|(_, i)| i as u32).collect(), ranks })
 }
 
 /// Sheets in their order about an axis.
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Radial {
-    /// Indices of the sheets.
+    /// Indices of the sheets. Sheets that leave in exactly the same direction keep the order in which they were given;
+    /// degenerate ones come last.
     pub(crate) order: Vec<u32>,
-    /// Whether two sheets leave in the same direction, or one is degenerate, so that geometry alone does not order them.
-    pub(crate) tied: bool,
+    /// Place of every sheet, equal for those that leave in the same direction; `None` for degenerate ones.
+    pub(crate) ranks: Vec<Option<u32>>,
+}
+
+impl Radial {
+    /// Whether geometry alone does not order the sheets.
+    pub(crate) fn tied(&self) -> bool {
+        let highest = self.ranks.iter().flatten().max().map_or(0, |r| *r as usize + 1);
+        highest < self.ranks.len()
+    }
+
+    /// Whether a cyclic order of sheets, given by their indices, goes round the axis once, clockwise. Degenerate sheets
+    /// may stand anywhere.
+    pub(crate) fn agrees(&self, order: &[u32]) -> bool {
+        let ranks: Vec<u32> = order.iter().filter_map(|&i| self.ranks.get(i as usize).copied().flatten()).collect();
+        let next = ranks.iter().cycle().skip(1);
+        ranks.iter().zip(next).filter(|(a, b)| a > b).count() <= 1
+    }
 }
 
 #[cfg(test)]
@@ -99,7 +125,7 @@ mod tests {
         let apexes = [DVec3::X, DVec3::NEG_Y, DVec3::NEG_X, DVec3::Y];
         let radial = radial_order(DVec3::ZERO, DVec3::Z, &apexes).unwrap();
         assert_eq!(radial.order, [0, 3, 2, 1]);
-        assert!(!radial.tied);
+        assert!(!radial.tied());
         let radial = radial_order(DVec3::Z, DVec3::ZERO, &apexes).unwrap();
         assert_eq!(radial.order, [0, 1, 2, 3]);
     }
@@ -110,7 +136,7 @@ mod tests {
         let near = [DVec3::new(1.0, 0.0, 0.5), DVec3::new(1.0, ulp, 0.3), DVec3::new(1.0, -ulp, 0.7)];
         let radial = radial_order(DVec3::ZERO, DVec3::Z, &near).unwrap();
         assert_eq!(radial.order, [0, 1, 2]);
-        assert!(!radial.tied);
+        assert!(!radial.tied());
     }
 
     #[test]
@@ -118,7 +144,11 @@ mod tests {
         let apexes = [DVec3::Z * 3.0, DVec3::Y, DVec3::X, DVec3::Y * 2.0];
         let radial = radial_order(DVec3::ZERO, DVec3::Z, &apexes).unwrap();
         assert_eq!(radial.order, [1, 3, 2, 0]);
-        assert!(radial.tied);
+        assert!(radial.tied());
+        assert!(radial.agrees(&[2, 0, 3, 1]) && radial.agrees(&[1, 2, 3]) && radial.agrees(&[2, 3, 1, 0]));
         assert!(radial_order(DVec3::ZERO, DVec3::Z, &[DVec3::Z]).is_none());
+        let apexes = [DVec3::X, DVec3::Y, DVec3::NEG_X];
+        let radial = radial_order(DVec3::ZERO, DVec3::Z, &apexes).unwrap();
+        assert!(radial.agrees(&[1, 2, 0]) && !radial.agrees(&[2, 1, 0]));
     }
 }

@@ -24,25 +24,17 @@ impl Body {
         sheets
     }
 
-    /// The radial order that geometry gives at edge `k`, started at the sheet that comes first by use and side;
-    /// `None` where the edge or all its faces are degenerate.
-    pub(crate) fn geometric_order(&self, joint: JointId, k: usize) -> Option<(Vec<Sheet>, bool)> {
-        let sheets = self.sheets_at(joint, k);
+    /// The radial order that geometry gives at edge `k` to the sheets of [`Body::sheets_at`]; `None` where the edge or
+    /// all its faces are degenerate.
+    pub(crate) fn geometric_order(&self, joint: JointId, k: usize, sheets: &[(Sheet, u32)]) -> Option<Radial> {
         let axis = self.joint_edge(joint, 0, k);
         let surface = self.surface(self.joint(joint).uses.first()?.surface);
         let [a, b] = surface.ends(axis).map(|v| surface.positions[v.index()]);
-        let apexes: Vec<_> = sheets
-            .iter()
-            .map(|&(sheet, face)| {
-                let u = self.joint(joint).uses[sheet.use_index as usize];
-                let s = self.surface(u.surface);
-                s.positions[s.apex(face, self.joint_edge(joint, sheet.use_index as usize, k).edge().0) as usize]
-            })
-            .collect();
-        let Radial { order, tied } = radial_order(a, b, &apexes)?;
-        let first = order.iter().position(|&i| i == 0).unwrap_or(0);
-        let turned = order[first..].iter().chain(&order[..first]);
-        Some((turned.map(|&i| sheets[i as usize].0).collect(), tied))
+        let apex = |&(sheet, face): &(Sheet, u32)| {
+            let s = self.surface(self.joint(joint).uses[sheet.use_index as usize].surface);
+            s.positions[s.apex(face, self.joint_edge(joint, sheet.use_index as usize, k).edge().0) as usize]
+        };
+        radial_order(a, b, &sheets.iter().map(apex).collect::<Vec<_>>())
     }
 
     /// Finds the radial order of a joint's sheets anew from the geometry and stores it: the order that most of its
@@ -57,8 +49,13 @@ impl Body {
         }
         let mut votes: BTreeMap<(bool, Vec<Sheet>), usize> = BTreeMap::new();
         for k in 0..len {
-            if let Some((order, tied)) = self.geometric_order(joint, k) {
-                *votes.entry((tied, order)).or_default() += 1;
+            let sheets = self.sheets_at(joint, k);
+            if let Some(radial) = self.geometric_order(joint, k, &sheets) {
+                // Started at the sheet that comes first by use and side, so that equal orders are equal lists.
+                let first = radial.order.iter().position(|&i| i == 0).unwrap_or(0);
+                let turned = radial.order[first..].iter().chain(&radial.order[..first]);
+                let order = turned.map(|&i| sheets[i as usize].0).collect();
+                *votes.entry((radial.tied(), order)).or_default() += 1;
             }
         }
         let untied = votes.keys().any(|(tied, _)| !tied);

@@ -162,3 +162,20 @@ fn plates(mesh: &TriMesh, labels: &[u8], field: &Field) -> Vec<Plate> {
     }
     plates
 }
+#[cfg(test)]
+mod debug_tests {
+    use super::*;
+    #[test]
+    fn dbg() {
+        let m: Measurements = serde_json::from_str(r#"{"bust":92,"waist":75,"hip":98.4,"height":168}"#).unwrap();
+        let r = m.resolve().unwrap();
+        let field = Field::new(&r, false);
+        let coarse = half_form(&field, 12.0);
+        let c = tape::correction(&coarse, &field, &r);
+        for i in 0..60 {
+            let y = 740.0 + 10.0 * i as f64;
+            let s = field.sections.at(y);
+            println!("{y} {:.1} A {:.1} b {:.1} c {:.1} corr {:.4}", tape::girths(&coarse, &[y])[0], s.half_width, s.half_depth, s.centre, c.get(y));
+        }
+    }
+}

@@ -65,10 +65,9 @@ pub(super) fn correction(half: &Patch, field: &Field, m: &Resolved) -> Curve {
     let (low, high) = (levels.crotch - 0.02 * h, levels.armpit);
     let count = ((high - low) / 4.0).ceil() as usize;
     let mut heights: Vec<f64> = (0..=count).map(|i| low + (high - low) * i as f64 / count as f64).collect();
+    heights.retain(|y| at.iter().all(|a| (y - a).abs() > 1.0));
     heights.extend(at);
     heights.sort_by(f64::total_cmp);
-    heights.dedup_by(|b, a| *b - *a < 0.5 && !at.contains(b));
-    heights.dedup_by(|a, b| (*b - *a).abs() < 0.5);
     let measured = girths(half, &heights);
     let guard = 0.012 * h;
     let arc = |y: f64, level: f64| 0.5 * BEND * (y - level).powi(2);

@@ -1,0 +1,58 @@
+//! Validity: every broken rule, with ids and the values measured. One file a family of rules.
+//!
+//! Rules on ids come first; where an id names nothing the rest cannot be asked and is not. The geometric rules and the
+//! counts come last, and run only on a body whose incidence is sound.
+
+mod attributes;
+mod boundary;
+mod defect;
+mod geometry;
+mod identity;
+mod ids;
+mod incidence;
+mod joints;
+#[cfg(test)]
+mod planted;
+
+pub use defect::Defect;
+
+use super::Body;
+
+impl Body {
+    /// All broken rules, in order of families, then ids; empty for a sound body.
+    ///
+    /// Checked are: array lengths and ids; incidence both ways, winding, duplicate edges; chains, loops and the boundary;
+    /// joints: lengths, directions, coincidence, radial order against the geometry (exact); attributes; finite
+    /// coordinates, degenerate and duplicate faces (exact); the identity of [`Body::counts`].
+    ///
+    /// O(faces · log faces).
+    pub fn check(&self) -> Vec<Defect> {
+        let mut defects = Vec::new();
+        ids::check(self, &mut defects);
+        if !defects.is_empty() {
+            return defects;
+        }
+        incidence::check(self, &mut defects);
+        if !defects.is_empty() {
+            return defects;
+        }
+        boundary::check(self, &mut defects);
+        joints::check_topology(self, &mut defects);
+        attributes::check(self, &mut defects);
+        let joined = defects.is_empty();
+        let finite = geometry::check_finite(self, &mut defects);
+        if finite {
+            joints::check_coincidence(self, &mut defects);
+        }
+        if !joined {
+            return defects;
+        }
+        geometry::check_duplicates(self, &mut defects);
+        if finite {
+            joints::check_radial_order(self, &mut defects);
+            geometry::check_degenerate(self, &mut defects);
+        }
+        identity::check(self, &mut defects);
+        defects
+    }
+}
