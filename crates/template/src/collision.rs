@@ -280,7 +280,7 @@ fn failed(e: &FactorError) -> TemplateError {
 }
 
 /// Entries of a flap's stiffness, lower triangle.
-fn entries(flap: &Flap) -> impl Iterator<Item = (u32, u32, f64)> + '_ {
+fn entries(flap: &Flap) -> impl Iterator<Item = (u32, u32, f64)> + Clone + '_ {
     (0..4).flat_map(move |i| {
         (0..=i).map(move |j| {
             let (u, v) = (flap.nodes[i], flap.nodes[j]);
