@@ -1,5 +1,8 @@
 //! Building bodies: loops, chains, joints, radial order, welding, splitting.
 
+// A test that cannot go on fails.
+#![allow(clippy::unwrap_used)]
+
 use mesh_kernel::body::{
     Body, BuildError, ChainSpec, DirectedEdge, JointId, JointSpec, NodeId, Side, SurfaceId, SurfaceSpec,
 };

@@ -1,5 +1,8 @@
 //! Random bodies with joints, random splits: what must hold holds after every step.
 
+// A test that cannot go on fails.
+#![allow(clippy::unwrap_used)]
+
 use mesh_kernel::body::{
     AttributeEdge, AttributeNode, AttributeNodeId, Body, ChainSpec, EdgeId, FaceId, JointSpec, SurfaceId,
     SurfaceSpec,

@@ -43,6 +43,7 @@ mod ids;
 mod joint;
 mod radial;
 mod radial_order;
+mod regions;
 mod shells;
 mod split_all;
 mod split_face;
@@ -61,6 +62,7 @@ pub use ids::{
     SurfaceId,
 };
 pub use joint::{Joint, JointUse, Sheet, Side};
+pub use regions::{Crossing, FaceSide, Region, Regions, Sector};
 pub use split_all::{SplitError, SplitMap, SurfaceSplit};
 pub use split_face::{FaceSplit, SplitEdge, SplitFaceError};
 pub use surface::{Star, Surface};
