@@ -1,8 +1,11 @@
 //! Counts, identity and volumes on worked examples (Lipson & Shpitalni) and on the shared sheets.
 
+// A test that cannot go on fails.
+#![allow(clippy::unwrap_used)]
+
 use std::path::PathBuf;
 
-use mesh_kernel::body::{Body, Counts};
+use mesh_kernel::body::{Body, Counts, FaceId, FaceSide};
 use mesh_kernel::glam::DVec3;
 use mesh_kernel::{Group, TriMesh};
 
@@ -61,6 +64,13 @@ fn extruded_y() {
     );
     assert_eq!(y.free_edges().len(), 9);
     // Three lines from one end of the joint to the other.
+    let (joint, _) = y.joints().next().unwrap();
+    let sectors = y.sectors(joint, 0);
+    assert!(
+        (sectors.iter().map(|s| s.angle).sum::<f64>() - std::f64::consts::TAU).abs() < 1e-12,
+        "{sectors:?}"
+    );
+    assert_eq!((sectors.len(), y.regions().regions().len(), y.alternates(joint)), (3, 1, false));
     let lines = y.boundary_loops();
     assert!(lines.len() == 3 && lines.iter().all(|l| !l.is_closed() && l.edges.len() == 3), "{lines:?}");
     assert_eq!(y.volume(), None);
@@ -98,6 +108,11 @@ fn box_with_a_partition() {
         ],
     );
     assert_eq!((partitioned.counts().v, partitioned.free_edges().len()), (12, 0));
+    let regions = partitioned.regions();
+    let wall = partitioned.surface_named("f3").unwrap();
+    let sides = [FaceSide::Front, FaceSide::Back].map(|s| regions.region(wall, FaceId(0), s));
+    assert!(sides == [1, 2] || sides == [2, 1], "{sides:?}");
+    assert_eq!(regions.regions().len(), 3);
     let volumes = partitioned.void_volumes();
     assert!(volumes.len() == 2 && volumes.iter().all(|v| (v - 1.0).abs() < 1e-15), "{volumes:?}");
     assert!((partitioned.volume().unwrap() - 2.0).abs() < 1e-15);
@@ -170,6 +185,16 @@ fn nested_touching_and_separate_shells() {
     let mut facets = tetrahedron.to_vec();
     facets.extend(shifted.iter().map(Vec::as_slice));
     let nested = body(&positions, &facets);
+    // Outside, between the two, inside the inner one.
+    let regions = nested.regions();
+    let volumes: Vec<_> = regions.regions().iter().map(|r| r.volume).collect();
+    assert_eq!(volumes.len(), 3);
+    assert!(volumes[0].is_none() && (volumes[1].unwrap() - 511.0 / 6.0).abs() < 1e-12, "{volumes:?}");
+    assert!((volumes[2].unwrap() - 1.0 / 6.0).abs() < 1e-12, "{volumes:?}");
+    assert_eq!(regions.regions()[1].shells.len(), 2);
+    let inner = nested.surface_named("f5").unwrap();
+    assert_eq!(regions.region(inner, FaceId(0), FaceSide::Front), 1);
+    assert_eq!(regions.region(inner, FaceId(0), FaceSide::Back), 2);
     assert_eq!(shape(nested), (2, 0, 2));
     // The inner one turned round is a cavity.
     let turned: Vec<Vec<u32>> = shifted.iter().map(|f| f.iter().rev().copied().collect()).collect();

@@ -55,16 +55,9 @@ impl Body {
     pub fn void_volumes(&self) -> Vec<f64> {
         let shells = Shells::new(&Complex::new(self));
         let volumes = shells.volumes(self);
-        // Of the shells of connected sheets, the one that looks outside has the least volume.
-        let mut outside: Vec<Option<usize>> = vec![None; shells.sheets];
-        for (side, &shell) in shells.of_side.iter().enumerate() {
-            let sheet = shells.sheet_of_face[side / 2] as usize;
-            let shell = shell as usize;
-            if outside[sheet].is_none_or(|s| volumes[shell] < volumes[s]) {
-                outside[sheet] = Some(shell);
-            }
-        }
-        (0..shells.count).filter(|&s| !outside.contains(&Some(s))).map(|s| volumes[s]).collect()
+        let mut outside = vec![false; shells.count];
+        shells.outer(&volumes).into_iter().for_each(|s| outside[s] = true);
+        (0..shells.count).filter(|&s| !outside[s]).map(|s| volumes[s]).collect()
     }
 
     /// Enclosed volume, in mm³; `None` where an edge has one face only, or there is no face at all.

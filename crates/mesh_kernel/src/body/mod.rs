@@ -40,9 +40,11 @@ mod free_boundary;
 mod from_tri_mesh;
 mod homology;
 mod ids;
+mod incomplete;
 mod joint;
 mod radial;
 mod radial_order;
+mod regions;
 mod shells;
 mod split_all;
 mod split_face;
@@ -60,7 +62,9 @@ pub use ids::{
     AttributeEdgeId, AttributeNodeId, ChainId, DirectedEdge, EdgeId, FaceId, JointId, LoopId, NONE, NodeId,
     SurfaceId,
 };
+pub use incomplete::AddError;
 pub use joint::{Joint, JointUse, Sheet, Side};
+pub use regions::{Crossing, FaceSide, Region, Regions, Sector};
 pub use split_all::{SplitError, SplitMap, SurfaceSplit};
 pub use split_face::{FaceSplit, SplitEdge, SplitFaceError};
 pub use surface::{Star, Surface};
