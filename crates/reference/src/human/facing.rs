@@ -15,7 +15,9 @@ pub(crate) fn votes(figure: &Figure<'_>) -> f64 {
     let depths = |from: f64, to: f64| {
         let spans: Vec<[f64; 2]> = figure.between(from * h, to * h).iter().filter_map(midline).collect();
         let n = spans.len() as f64;
-        (n > 0.0).then(|| [spans.iter().map(|s| s[0]).sum::<f64>() / n, spans.iter().map(|s| s[1]).sum::<f64>() / n])
+        (n > 0.0).then(|| {
+            [spans.iter().map(|s| s[0]).sum::<f64>() / n, spans.iter().map(|s| s[1]).sum::<f64>() / n]
+        })
     };
     let toes = centre(figure.between(0.0, 0.02 * h)).zip(centre(figure.between(0.06 * h, 0.10 * h)));
     let mut sum = vote(toes.map(|(f, a)| f.y - a.y), 0.012, 4.0);

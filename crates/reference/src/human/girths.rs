@@ -49,12 +49,14 @@ pub(crate) fn add(
     let levels = trunk_levels(figure, marks)?;
     for (name, y) in levels.named() {
         let level = figure.at(y);
-        let ring = level.trunk().ok_or_else(|| format!("the trunk has no outline at the {name}"))?;
+        let ring = marks.trunk(&level).ok_or_else(|| format!("the trunk has no outline at the {name}"))?;
         let place = |p: &DVec2| DVec3::new(p.x, y, p.y);
         let skin = from_front(&ring.points, SPACING);
         let taut = from_front(&ring.hull(), SPACING);
         features.curves.insert(name.to_owned(), closed(skin.iter().map(place).collect(), DVec3::Y, field));
-        features.curves.insert(format!("{name}_tape"), closed(taut.iter().map(place).collect(), DVec3::Y, field));
+        features
+            .curves
+            .insert(format!("{name}_tape"), closed(taut.iter().map(place).collect(), DVec3::Y, field));
     }
     if let Some(curve) = neck(figure, marks, field) {
         features.curves.insert("neck".to_owned(), curve);
@@ -69,18 +71,20 @@ pub(crate) fn add(
 
 /// Tape girths of the trunk between crotch and armpits, and the heights that ISO 8559-1 names by them.
 fn trunk_levels(figure: &Figure<'_>, marks: &Marks) -> Result<TrunkLevels, String> {
-    let (s, armpit_y, crotch_y) = (marks.stature, marks.armpit_height(), marks.crotch.y);
+    let (s, armpit_y, crotch_y) = (marks.stature, marks.armpit_height(), marks.crotch_level);
     let chest = marks.armpit.iter().map(|p| p.y).fold(f64::INFINITY, f64::min) - 2.0;
     let tapes: Vec<(f64, f64)> = figure
-        .between(crotch_y + 4.0, chest)
+        .between(crotch_y, chest)
         .par_iter()
         .filter(|l| l.y > crotch_y && l.y <= chest)
-        .filter_map(|l| l.trunk().map(|t| (l.y, t.tape())))
+        .filter_map(|l| marks.trunk(l).map(|t| (l.y, t.tape())))
         .collect();
     let fullest = |from: f64, to: f64| {
         tapes.iter().filter(|t| t.0 >= from && t.0 <= to).max_by(|a, b| a.1.total_cmp(&b.1)).map(|t| t.0)
     };
-    let missing = |what: &str| format!("the trunk has no outline between crotch and armpits where the {what} should be");
+    let missing = |what: &str| {
+        format!("the trunk has no outline between crotch and armpits where the {what} should be")
+    };
     // The fold under the breasts lies 6.8 % of the stature below the armpits where there are no breasts to show it.
     let underbust = underbust(figure, marks, armpit_y - 0.068 * s);
     let navel = crotch_y + 0.483 * (armpit_y - crotch_y);
@@ -231,7 +235,8 @@ fn neck_base(figure: &Figure<'_>, marks: &Marks, field: &NormalField) -> Result<
             let cos_side = side_turn.y / side_turn.length();
             let (front, back) = (marks.front_neck.y, marks.nape.y);
             let b = (front - back) / 2.0;
-            let c = ((front + back) / 2.0 + b * cos_side - side.y) / (1.0 - (2.0 * cos_side * cos_side - 1.0));
+            let c =
+                ((front + back) / 2.0 + b * cos_side - side.y) / (1.0 - (2.0 * cos_side * cos_side - 1.0));
             let a = (front + back) / 2.0 - c;
             let y = a + b * turn.cos() + c * (2.0 * turn).cos();
             let direction = DVec2::new(turn.sin(), turn.cos());
@@ -298,10 +303,7 @@ fn armhole(figure: &Figure<'_>, marks: &Marks, side: Side, field: &NormalField) 
         .map(|k| {
             let turn = std::f64::consts::TAU * f64::from(k) / f64::from(count);
             let d = DVec2::new(turn.sin(), turn.cos());
-            let hit = rings
-                .iter()
-                .filter_map(|r| ray_any(r, d))
-                .reduce(f64::min);
+            let hit = rings.iter().filter_map(|r| ray_any(r, d)).reduce(f64::min);
             let under = if d.y < 0.0 { reach / -d.y } else { f64::INFINITY };
             hit.unwrap_or(reach).min(under).min(1.6 * reach).max(0.35 * reach)
         })
@@ -332,7 +334,9 @@ fn ray_any(ring: &Ring, direction: DVec2) -> Option<f64> {
         .filter_map(|i| {
             let (a, b) = (ring.points[i], ring.points[(i + 1) % n]);
             let (u, v) = (direction.perp_dot(a), direction.perp_dot(b));
-            ((u > 0.0) != (v > 0.0)).then(|| (a + (b - a) * (u / (u - v))).dot(direction)).filter(|t| *t > 0.0)
+            ((u > 0.0) != (v > 0.0))
+                .then(|| (a + (b - a) * (u / (u - v))).dot(direction))
+                .filter(|t| *t > 0.0)
         })
         .reduce(f64::min)
 }

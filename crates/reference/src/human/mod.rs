@@ -198,15 +198,14 @@ pub fn extract(raw: &TriMesh, options: &HumanOptions) -> Result<HumanBody, Human
     Ok(HumanBody { mesh, placement, unit, features, girths })
 }
 
-fn features_of(figure: &figure::Figure<'_>, marks: &marks::Marks, warnings: Vec<String>) -> Result<Features, String> {
+fn features_of(
+    figure: &figure::Figure<'_>,
+    marks: &marks::Marks,
+    warnings: Vec<String>,
+) -> Result<Features, String> {
     let field = normals::NormalField::new(figure.mesh);
-    let mut features = Features {
-        facing: DVec3::Z,
-        up: DVec3::Y,
-        height: figure.height,
-        warnings,
-        ..Features::default()
-    };
+    let mut features =
+        Features { facing: DVec3::Z, up: DVec3::Y, height: figure.height, warnings, ..Features::default() };
     let trunk = girths::add(figure, marks, &field, &mut features)?;
     verticals::add(figure, marks, &trunk, &field, &mut features)?;
     limbs::add(figure, marks, &field, &mut features);
