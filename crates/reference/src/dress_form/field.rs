@@ -124,7 +124,7 @@ impl Field {
         let (front, back) = hills(m, &levels);
 
         // Neck: leans forward; the fillet at its foot makes the neck base.
-        let neck_radius = 0.885 * m.neck * 10.0 / std::f64::consts::TAU;
+        let neck_radius = 0.87 * m.neck * 10.0 / std::f64::consts::TAU;
         let lean = 0.30_f64;
         let neck_axis = DVec3::new(0.0, lean.cos(), lean.sin());
         let neck_foot = 0.5 * (levels.nape + levels.front_neck);
@@ -135,7 +135,7 @@ impl Field {
             axis: neck_axis,
             across: DVec3::new(0.0, -lean.sin(), lean.cos()),
             radius: [neck_radius * 1.02, neck_radius * 0.98],
-            fillet: 0.030 * h,
+            fillet: 0.026 * h,
         };
 
         // Shoulder line from the neck side to the shoulder point.
@@ -146,19 +146,18 @@ impl Field {
         // Arm plate from the shoulder point to the armpit.
         let chest = sections.at(levels.armpit);
         let height = levels.shoulder - levels.armpit;
-        let under_x = (chest.half_width + 0.008 * h).clamp(shoulder_x - 0.42 * height, shoulder_x + 0.10 * height);
+        let under_x = (chest.half_width + 0.006 * h).clamp(shoulder_x - 0.42 * height, shoulder_x + 0.15 * height);
         let top = DVec3::new(shoulder_x, levels.shoulder, 0.0);
         let bottom = DVec3::new(under_x, levels.armpit, 0.0);
         let along = (top - bottom).normalize();
         let plate_normal = DVec3::new(along.y, -along.x, 0.0);
         let middle = 0.53 * bottom + 0.47 * top + DVec3::Z * (chest.centre - 0.008 * h);
-        // The stub leaves the trunk a little downward, as a hanging arm does.
-        let (sin, cos) = 0.30_f64.sin_cos();
-        let arm_axis =
-            DVec3::new(plate_normal.x * cos + plate_normal.y * sin, plate_normal.y * cos - plate_normal.x * sin, 0.0);
+        // Nearly level, so that the underside does not hang below the plate.
+        let arm_axis = (DVec3::X + 0.35 * plate_normal).normalize();
+        let cos = arm_axis.dot(plate_normal);
         let across = DVec3::new(-arm_axis.y, arm_axis.x, 0.0);
         let half_height = 0.47 * (top - bottom).length() * cos;
-        let half_depth = (m.upper_arm * 10.0 / std::f64::consts::TAU * 1.06).clamp(0.60 * half_height, 1.15 * half_height);
+        let half_depth = (m.upper_arm * 10.0 / std::f64::consts::TAU * 1.14).clamp(0.60 * half_height, 1.15 * half_height);
         let arm = Stub {
             origin: middle - arm_axis * (0.9 * half_height),
             axis: arm_axis,
@@ -194,7 +193,7 @@ impl Field {
             let tilt = 0.24_f64;
             let normal = DVec3::new(0.0, tilt.cos(), tilt.sin());
             let back = field.back_of(levels.top);
-            cuts.push(Cut { origin: back, normal, window: [levels.nape, f64::INFINITY] });
+            cuts.push(Cut { origin: back, normal, window: [levels.shoulder, f64::INFINITY] });
         }
         field.cuts = cuts;
         if m.figure == Figure::Woman {
@@ -221,25 +220,28 @@ impl Field {
         let ribs = self.sections.at(levels.bust);
         let outline = ribs.outline();
         let want = m.bust * 10.0;
-        let x = (1.0 * m.bust).min(0.58 * ribs.half_width);
-        let side = 0.37 * ribs.half_width;
+        let x = (1.0 * m.bust).min(0.565 * ribs.half_width);
+        let side = 0.41 * ribs.half_width;
         let skin = ribs.front_at(x);
         const SINK: f64 = 0.42;
         let shape = |rise: f64| {
             let depth = rise / (1.0 - SINK);
             (skin - SINK * depth, depth)
         };
-        let girth = |rise: f64| {
+        // The tape at height y over ribs and breasts with upper half axis `upper`.
+        let girth_at = |rise: f64, y: f64, upper: f64| {
             let (z, depth) = shape(rise);
-            let mut points = outline.clone();
+            let shrink = (1.0 - ((y - levels.bust) / upper).powi(2)).max(0.0).sqrt();
+            let mut points = if y == levels.bust { outline.clone() } else { self.sections.at(y).outline() };
             for i in 0..=32 {
                 let (s, c) = (std::f64::consts::PI * i as f64 / 32.0).sin_cos();
                 for sign in [-1.0, 1.0] {
-                    points.push([sign * (x + side * c), z + depth * s]);
+                    points.push([sign * (x + side * shrink * c), z + depth * shrink * s]);
                 }
             }
             hull_length(&mut points)
         };
+        let girth = |rise: f64| girth_at(rise, levels.bust, h);
         let (mut low, mut high) = (0.0, 0.2 * h);
         if girth(low) >= want {
             return None;
@@ -250,11 +252,18 @@ impl Field {
         }
         let (z, depth) = shape(low);
         let below = levels.bust - levels.underbust;
+        // As long upward as leaves the bust point the fullest.
+        let above = levels.bust + 0.40 * (levels.armpit - levels.bust);
+        let (mut short, mut long) = (0.9 * below, 1.7 * below);
+        for _ in 0..30 {
+            let middle = 0.5 * (short + long);
+            *(if girth_at(low, above, middle) < 0.985 * want { &mut short } else { &mut long }) = middle;
+        }
         Some(Breast {
             centre: DVec3::new(x, levels.bust, z),
-            radius: DVec3::new(side, below * 1.02, depth),
-            upper: 1.75,
-            fillet: 0.016 * h,
+            radius: DVec3::new(side, below * 0.80, depth),
+            upper: short / (below * 0.80),
+            fillet: 0.022 * h,
         })
     }
 
@@ -316,7 +325,9 @@ impl Field {
                 Some(plate) => self.arm.distance(p).max(plate.over(p) - 0.015 * h),
                 None => self.arm.distance(p),
             };
-            f = smooth_min(f, arm, self.arm.fillet);
+            // A tight fillet in the armpit, a wide one over the shoulder.
+            let rise = (p.y - self.levels.armpit) / (self.levels.shoulder - self.levels.armpit);
+            f = smooth_min(f, arm, self.arm.fillet * (0.35 + 0.65 * smooth_step(rise)));
             f = smooth_min(f, self.neck.distance(p), self.neck.fillet);
             if let Some((centre, radius)) = self.head {
                 f = smooth_min(f, ellipsoid(p - centre, radius), 0.03 * h);
@@ -361,7 +372,7 @@ fn hills(m: &Resolved, levels: &Levels) -> (Vec<Hill>, Vec<Hill>) {
         hill(0.047 * seat_wide, levels.hip + 0.004 * h, 0.032 * seat_wide, 0.026, seat),
     ];
     let stout = ((m.waist * 10.0 / h) - 0.46).max(0.0);
-    let mut front = vec![hill(0.0, levels.high_hip, 0.045, 0.030, 0.003 + 0.035 * stout)];
+    let mut front = vec![hill(0.0, levels.high_hip, 0.045, 0.032, 0.003 + 0.020 * stout)];
     if chest > 0.0 {
         front.push(hill(0.047 * wide, levels.bust + 0.006 * h, 0.030, 0.022, chest));
     }

@@ -85,17 +85,22 @@ impl DressForm {
         let levels = field.levels;
 
         // A coarse form first: how far do its girths miss, with all parts joined?
-        let coarse = half_form(&field, levels.stature / 70.0);
-        let correction = tape::correction(&coarse, &field, &resolved);
-        field.sections.scale(|y| correction.get(y));
+        let mut coarse = half_form(&field, levels.stature / 70.0);
+        for _ in 0..2 {
+            let correction = tape::correction(&coarse, &field, &resolved);
+            field.sections.scale(|y| correction.get(y));
+            coarse = half_form(&field, levels.stature / 70.0);
+        }
 
         let surface = 2.0 * remesh::area(&coarse);
         let edge = (surface / options.triangles as f64 / (0.25 * 3.0_f64.sqrt())).sqrt();
         let mut half = half_form(&field, edge * 0.95);
         remesh::remesh(&mut half, &field, edge, 5);
-        for _ in 0..4 {
-            let correction = tape::correction(&half, &field, &resolved);
-            tape::warp(&mut half, &field, &correction);
+        for round in 0..6 {
+            // The extremes first; what is left at the levels themselves last.
+            let factor = if round < 4 { tape::level_extremes } else { tape::correction };
+            let factor = factor(&half, &field, &resolved);
+            tape::warp(&mut half, &field, &factor);
         }
         tape::check(&half, &levels, &resolved)?;
         let (mesh, labels) = mirrored(&half);

@@ -84,6 +84,8 @@ impl Section {
 #[derive(Clone, Debug)]
 pub(super) struct Sections {
     step: f64,
+    /// Rows over which sizes are smoothed.
+    spread: f64,
     table: Vec<[f64; FIELDS]>,
     /// `ε` of the parting, mm.
     pub(super) parting: f64,
@@ -106,52 +108,38 @@ fn centres(figure: Figure) -> ByLevel {
 /// normal weight, and how fast each grows with girth over stature above 0.44.
 fn depths(figure: Figure) -> [[f64; 2]; 6] {
     match figure {
-        Figure::Woman => [[0.600, 0.25], [0.660, 0.8], [0.710, 0.9], [0.680, 0.6], [0.665, 0.45], [0.635, 0.3]],
-        Figure::Man => [[0.625, 0.25], [0.705, 0.8], [0.700, 1.0], [0.705, 0.6], [0.690, 0.4], [0.650, 0.3]],
-        Figure::Child => [[0.630, 0.25], [0.680, 0.8], [0.690, 1.0], [0.730, 0.6], [0.720, 0.4], [0.680, 0.3]],
+        Figure::Woman => [[0.600, 0.45], [0.660, 0.8], [0.710, 0.9], [0.680, 0.6], [0.665, 0.55], [0.635, 0.5]],
+        Figure::Man => [[0.620, 0.45], [0.705, 0.8], [0.700, 1.0], [0.705, 0.6], [0.690, 0.45], [0.650, 0.45]],
+        Figure::Child => [[0.630, 0.45], [0.680, 0.8], [0.690, 1.0], [0.730, 0.6], [0.720, 0.45], [0.680, 0.45]],
     }
 }
 
 /// Girth of the trunk without breasts at bust level and at the armpit, between underbust (0) and bust (1).
 fn rib_shares(figure: Figure) -> [f64; 2] {
     match figure {
-        Figure::Woman => [0.36, 0.62],
-        Figure::Man => [1.0, 0.55],
-        Figure::Child => [1.0, 0.40],
+        Figure::Woman => [0.45, 0.43],
+        Figure::Man => [1.0, 0.80],
+        Figure::Child => [1.0, 0.72],
     }
 }
 
 impl Sections {
     pub(super) fn new(m: &Resolved, levels: &Levels) -> Self {
         let h = levels.stature;
-        let parting = 0.003 * h;
+        let parting = 0.0055 * h;
         let normal = depths(m.figure);
         let depth = |i: usize, girth: f64| (normal[i][0] + normal[i][1] * (girth / h - 0.44).max(0.0)).min(0.92);
-        let hip_unit = Section {
-            half_width: 1.0,
-            half_depth: depth(0, m.hip * 10.0),
-            centre: 0.0,
-            part_front: 0.2,
-            part_back: 0.4,
-            power_front: 2.15,
-            power_back: 2.15,
+        // A stout body grows forward more than backward.
+        let stout = ((m.waist * 10.0 / h) - 0.46).max(0.0);
+        let forward = |y: f64| {
+            let below = smooth_step((y - levels.crotch) / (levels.waist - levels.crotch));
+            let above = smooth_step((levels.armpit - y) / (levels.armpit - levels.underbust));
+            0.11 * stout * h * below * above
         };
-        let hip_half_width = m.hip * 10.0 / hull_length(&mut hip_unit.outline());
-        let legs = Legs::new(m, levels, parting, hip_half_width);
-        let table_step = 2.0;
-        let girth = Self::girths(m, levels, &legs);
-        let centre = Curve::through(&by_level(levels, centres(m.figure).map(|c| c * h)));
-        let thighs = legs.section(levels.crotch);
-        let trunk_levels =
-            [levels.hip, levels.high_hip, levels.waist, levels.underbust, levels.bust, levels.armpit];
-        let mut ratio: Vec<(f64, f64)> = (0..6)
-            .map(|i| (trunk_levels[i], depth(i, girth.get(trunk_levels[i]))))
-            .collect();
-        ratio.push((levels.crotch, thighs.half_depth / thighs.half_width));
-        let ratio = Curve::through(&ratio);
+        let thigh_half = m.thigh * 10.0 / std::f64::consts::TAU;
         let above = |t: f64| levels.crotch + t * h;
         let part_back = Curve::through(&[
-            (levels.crotch, 1.0 + parting / (thighs.half_width / 2.0)),
+            (levels.crotch, 1.0 + parting / thigh_half),
             (above(0.008), 0.78),
             (above(0.026), 0.52),
             (above(0.055), 0.25),
@@ -159,12 +147,47 @@ impl Sections {
             (above(0.13), 0.0),
         ]);
         let part_front = Curve::through(&[
-            (levels.crotch, 1.0 + parting / (thighs.half_width / 2.0)),
+            (levels.crotch, 1.0 + parting / thigh_half),
             (above(0.008), 0.68),
             (above(0.022), 0.30),
             (above(0.045), 0.08),
             (above(0.075), 0.0),
         ]);
+        let centre = Curve::through(&by_level(levels, centres(m.figure).map(|c| c * h)));
+        let mut hip_section = Section {
+            half_width: 1.0,
+            half_depth: depth(0, m.hip * 10.0),
+            centre: 0.0,
+            part_front: part_front.get(levels.hip),
+            part_back: part_back.get(levels.hip),
+            power_front: 2.15,
+            power_back: 2.15,
+        };
+        let size = m.hip * 10.0 / hull_length(&mut hip_section.outline());
+        hip_section.half_width *= size;
+        hip_section.half_depth *= size;
+        hip_section.centre = centre.get(levels.hip) + forward(levels.hip);
+        let legs = Legs::new(m, levels, parting, &hip_section);
+        let table_step = 2.0;
+        let girth = Self::girths(m, levels, &legs);
+        let trunk_levels =
+            [levels.hip, levels.high_hip, levels.waist, levels.underbust, levels.bust, levels.armpit];
+        let mut ratio: Vec<(f64, f64)> = (0..6)
+            .map(|i| (trunk_levels[i], depth(i, girth.get(trunk_levels[i]))))
+            .collect();
+        // The arms hang outside the ribs: wide chests on narrow shoulders are deep.
+        let limit = m.shoulder_width * 5.0 + 0.06 * (levels.shoulder - levels.armpit);
+        while ratio[5].1 < 0.95 {
+            let unit = Section { half_width: 1.0, half_depth: ratio[5].1, ..hip_section };
+            let whole = Section { centre: 0.0, part_front: 0.0, part_back: 0.0, power_front: 2.3, power_back: 2.5, ..unit };
+            if girth.get(levels.armpit) / hull_length(&mut whole.outline()) <= limit {
+                break;
+            }
+            ratio[5].1 += 0.01;
+        }
+        ratio[4].1 = ratio[4].1.max(ratio[5].1 - 0.04);
+        ratio.push((levels.crotch, 0.5));
+        let ratio = Curve::through(&ratio);
         let power_front = Curve::through(&by_level(levels, [2.1, 2.15, 2.2, 2.2, 2.25, 2.3, 2.3, 2.3, 2.2]));
         let power_back = Curve::through(&by_level(levels, [2.1, 2.15, 2.25, 2.35, 2.45, 2.5, 2.5, 2.4, 2.2]));
         let rise = levels.shoulder - levels.armpit;
@@ -172,7 +195,6 @@ impl Sections {
             &[(0.0, 1.0), (0.35, 0.96), (0.65, 0.88), (1.0, 0.76), (1.5, 0.58), (2.0, 0.50)]
                 .map(|(t, v)| (levels.armpit + t * rise, v)),
         );
-        let stout = ((m.waist * 10.0 / h) - 0.46).max(0.0);
         let trunk = |y: f64| {
             let at = y.min(levels.armpit);
             let mut section = Section {
@@ -185,23 +207,28 @@ impl Sections {
                 power_back: power_back.get(y),
             };
             let unit = hull_length(&mut Section { centre: 0.0, ..section }.outline());
+            if y < levels.hip {
+                section.half_width = legs.half_width.get(y);
+                section.half_depth = legs.half_depth.get(y);
+                section.centre = legs.centre.get(y);
+                return section;
+            }
             let size = girth.get(at) / unit;
             section.half_width = size;
             section.half_depth *= size * thinning.get(y.max(levels.armpit));
-            // A stout body grows forward more than backward.
-            let belly = smooth_step((y - levels.hip) / (levels.high_hip - levels.hip))
-                * smooth_step((levels.armpit - y) / (levels.armpit - levels.underbust));
-            section.centre += belly * 0.14 * stout * h;
+            section.centre += forward(y);
             section
         };
         let count = ((levels.nape + 0.1 * h) / table_step).ceil() as usize + 2;
-        let table = (0..count)
+        let table: Vec<[f64; FIELDS]> = (0..count)
             .map(|i| {
                 let y = i as f64 * table_step;
                 if y < levels.crotch { legs.section(y) } else { trunk(y) }.to_array()
             })
             .collect();
-        Self { step: table_step, table, parting }
+        // Sizes and middles; the parting opens the crotch where it shall.
+        let spread = 0.0085 * h / table_step;
+        Self { step: table_step, spread, table: smoothed(&table, spread, &[0, 1, 2, 5, 6]), parting }
     }
 
     /// Girth by height of the trunk without breasts.
@@ -238,10 +265,10 @@ impl Sections {
         Section::from_array(std::array::from_fn(|k| a[k] + f * (b[k] - a[k])))
     }
 
-    /// Multiplies width and depth of the sections by a factor of height, about their middles.
+    /// Multiplies width and depth of the sections by a factor of height, smoothed, about their middles.
     pub(super) fn scale(&mut self, factor: impl Fn(f64) -> f64) {
-        for (i, row) in self.table.iter_mut().enumerate() {
-            let s = factor(i as f64 * self.step);
+        let factors: Vec<[f64; 1]> = (0..self.table.len()).map(|i| [factor(i as f64 * self.step)]).collect();
+        for (row, [s]) in self.table.iter_mut().zip(smoothed(&factors, self.spread, &[0])) {
             row[0] *= s;
             row[1] *= s;
         }
@@ -250,16 +277,18 @@ impl Sections {
 
 /// Both legs as one parted section.
 struct Legs {
+    /// Of one leg.
     girth: Curve,
-    /// Width over depth of one leg.
-    aspect: Curve,
+    /// Of both together.
+    half_width: Curve,
+    half_depth: Curve,
     /// Half the gap between the legs.
     gap: Curve,
     centre: Curve,
 }
 
 impl Legs {
-    fn new(m: &Resolved, levels: &Levels, parting: f64, hip_half_width: f64) -> Self {
+    fn new(m: &Resolved, levels: &Levels, parting: f64, hip_section: &Section) -> Self {
         let (h, cm) = (levels.stature, 10.0);
         let girth = Curve::through(&[
             (0.0, cm * m.ankle * 1.06),
@@ -268,15 +297,17 @@ impl Legs {
             (levels.knee, cm * m.knee),
             (levels.knee + 0.035 * h, cm * (m.knee + 0.08 * (m.thigh - m.knee))),
             (levels.thigh - 0.01 * h, cm * m.thigh * 0.985),
-            (levels.crotch, cm * m.thigh),
+            // The thigh is fullest where it meets the seat.
+            (levels.crotch, cm * m.thigh * 1.03),
         ]);
         let gap = Curve::through(&[
+            (levels.hip, parting),
             (levels.crotch, parting),
-            (levels.crotch - 0.01 * h, parting + 0.0022 * h),
-            (levels.thigh, 0.0078 * h),
-            (levels.crotch - 0.09 * h, 0.0165 * h),
-            (levels.knee, 0.0270 * h),
-            (levels.calf, 0.0290 * h),
+            (levels.crotch - 0.01 * h, parting + 0.0020 * h),
+            (levels.thigh, parting + 0.0050 * h),
+            (levels.crotch - 0.09 * h, 0.0185 * h),
+            (levels.knee, 0.0280 * h),
+            (levels.calf, 0.0300 * h),
             (levels.ankle, 0.0420 * h),
             (0.0, 0.0420 * h),
         ]);
@@ -284,59 +315,95 @@ impl Legs {
         // one girth, stays inside the hip girth.
         let (thigh, hip) = (cm * m.thigh, cm * m.hip);
         let round = thigh / std::f64::consts::TAU;
-        let roomy = (0.972 * hip - thigh) / 4.0 - parting;
-        let half_width = |share: f64, y: f64| {
-            let line = 0.5 * (share * hip_half_width - gap.get(y));
+        let roomy = (0.972 * hip - 1.03 * thigh) / 4.0 - parting;
+        let from_hip = |share: f64, y: f64| {
+            let line = 0.5 * (share * hip_section.half_width - gap.get(y));
             line.clamp(0.84 * round, 1.04 * round).min(roomy)
         };
-        // Perimeter of an ellipse of half width w r has half depth near (2 − w) r.
-        let shape = |a: f64| a / (2.0 * round - a);
-        let (at_crotch, at_thigh) = (half_width(0.985, levels.crotch), half_width(0.962, levels.thigh));
-        let aspect = Curve::through(&[
-            (0.0, 0.85),
-            (levels.ankle, 0.83),
-            (levels.calf, 0.96),
-            (levels.knee, 0.94),
-            (levels.knee + 0.10 * h, 0.90),
-            (levels.thigh, shape(at_thigh)),
-            (levels.crotch, shape(at_crotch)),
+        let outer = |a: f64, y: f64| (y, 2.0 * a + gap.get(y));
+        let from_girth = |aspect: f64, y: f64| {
+            let one = leg_section(1.0, 1.0 / aspect, 0.0, 1.0);
+            outer(girth.get(y) / hull_length(&mut Section { part_front: 0.0, part_back: 0.0, ..one }.outline()), y)
+        };
+        let above_knee = levels.knee + 0.10 * h;
+        let half_width = Curve::through(&[
+            from_girth(0.85, 0.0),
+            from_girth(0.83, levels.ankle),
+            from_girth(0.96, levels.calf),
+            from_girth(0.94, levels.knee),
+            from_girth(0.91, above_knee),
+            outer(from_hip(0.955, levels.thigh), levels.thigh),
+            outer(from_hip(0.985, levels.crotch), levels.crotch),
+            (levels.hip, hip_section.half_width),
+            (levels.hip + 0.02 * h, 0.99 * hip_section.half_width),
         ]);
         let crotch_centre = centres(m.figure)[0] * h;
         let centre = Curve::through(&[
             (0.0, 0.004 * h),
             (levels.ankle, 0.004 * h),
             (levels.calf, 0.003 * h),
-            (levels.knee, 0.0165 * h),
-            (levels.knee + 0.06 * h, 0.021 * h),
-            (levels.crotch - 0.05 * h, crotch_centre.max(0.019 * h)),
+            (levels.knee, 0.0150 * h),
+            (levels.knee + 0.06 * h, 0.0185 * h),
+            (levels.crotch - 0.05 * h, crotch_centre.max(0.0175 * h)),
             (levels.crotch, crotch_centre),
+            (levels.hip, hip_section.centre),
         ]);
-        Self { girth, aspect, gap, centre }
+        let mut legs = Self { girth, half_width, half_depth: Curve::through(&[]), gap, centre };
+        // Depth from what the girth leaves, at close heights; then on to the hip's depth.
+        let mut depths: Vec<(f64, f64)> = (0..=48)
+            .map(|i| {
+                let y = levels.crotch * f64::from(i) / 48.0;
+                (y, legs.depth_for_girth(y))
+            })
+            .collect();
+        depths.push((levels.hip, hip_section.half_depth));
+        depths.push((levels.hip + 0.02 * h, 1.015 * hip_section.half_depth));
+        legs.half_depth = Curve::through(&depths);
+        legs
+    }
+
+    /// Half width of one leg at `y`.
+    fn one_half_width(&self, y: f64) -> f64 {
+        0.5 * (self.half_width.get(y) - self.gap.get(y))
+    }
+
+    /// Half depth that gives one leg its girth.
+    fn depth_for_girth(&self, y: f64) -> f64 {
+        let (a, girth) = (self.one_half_width(y), self.girth.get(y));
+        let length = |b: f64| {
+            let one = leg_section(a, b, 0.0, 1.0);
+            hull_length(&mut Section { part_front: 0.0, part_back: 0.0, ..one }.outline())
+        };
+        // The length grows near linearly with b: secant.
+        let (mut b0, mut b1) = (0.9 * a, 1.1 * a);
+        let (mut f0, mut f1) = (length(b0) - girth, length(b1) - girth);
+        for _ in 0..6 {
+            if (f1 - f0).abs() < 1e-9 {
+                break;
+            }
+            let b2 = (b1 - f1 * (b1 - b0) / (f1 - f0)).clamp(0.4 * a, 2.2 * a);
+            (b0, f0, b1) = (b1, f1, b2);
+            f1 = length(b1) - girth;
+        }
+        b1
     }
 
     fn section(&self, y: f64) -> Section {
-        let aspect = self.aspect.get(y);
-        let power = 2.1;
-        let one = Section {
-            half_width: 1.0,
-            half_depth: 1.0 / aspect,
-            centre: 0.0,
-            part_front: 0.0,
-            part_back: 0.0,
-            power_front: power,
-            power_back: power,
-        };
-        let a = self.girth.get(y) / hull_length(&mut one.outline());
-        let gap = self.gap.get(y);
-        let part = 1.0 + gap / a;
-        Section {
-            half_width: 2.0 * a + gap,
-            half_depth: a / aspect,
-            centre: self.centre.get(y),
-            part_front: part,
-            part_back: part,
-            ..one
-        }
+        let a = self.one_half_width(y);
+        leg_section(self.half_width.get(y), self.half_depth.get(y), self.centre.get(y), 1.0 + self.gap.get(y) / a)
+    }
+}
+
+fn leg_section(half_width: f64, half_depth: f64, centre: f64, part: f64) -> Section {
+    let power = 2.1;
+    Section {
+        half_width,
+        half_depth,
+        centre,
+        part_front: part,
+        part_back: part,
+        power_front: power,
+        power_back: power,
     }
 }
 
@@ -362,4 +429,28 @@ fn by_level(levels: &Levels, values: ByLevel) -> Vec<(f64, f64)> {
 pub(super) fn smooth_step(t: f64) -> f64 {
     let t = t.clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
+}
+
+/// The columns of a table smoothed by a Gaussian of `spread` rows: monotone curves have jumps of curvature that would show
+/// as rings.
+fn smoothed<const N: usize>(table: &[[f64; N]], spread: f64, columns: &[usize]) -> Vec<[f64; N]> {
+    let reach = (3.0 * spread).ceil() as usize;
+    let weight: Vec<f64> = (0..=reach).map(|d| (-0.5 * (d as f64 / spread).powi(2)).exp()).collect();
+    let last = table.len() - 1;
+    (0..table.len())
+        .map(|i| {
+            let mut row = table[i];
+            for &k in columns {
+                let (mut sum, mut total) = (0.0, 0.0);
+                for (d, w) in weight.iter().enumerate() {
+                    for j in [i.saturating_sub(d), (i + d).min(last)] {
+                        sum += w * table[j][k];
+                        total += w;
+                    }
+                }
+                row[k] = sum / total;
+            }
+            row
+        })
+        .collect()
 }
