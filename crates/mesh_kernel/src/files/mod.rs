@@ -5,9 +5,14 @@
 //! reserved on the word of a header. Writers make the whole file in memory; [`write_atomically`] puts it in place.
 
 mod error;
+mod glb;
+mod gltf;
 mod number;
 mod obj;
+mod off;
 mod place;
+mod ply;
+mod stl;
 pub(crate) mod weld;
 
 use std::fmt;
@@ -20,7 +25,7 @@ pub use error::{Place, ReadError};
 pub use place::write_atomically;
 
 /// Most vertices, and most triangles, that a file may unfold to; beyond it 32-bit indices and memory end.
-pub const MAX_ELEMENTS: usize = 1 << 27;
+pub const MAX_ELEMENTS: usize = 1 << 26;
 
 /// A mesh file format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -126,7 +131,10 @@ pub fn read(path: &Path) -> Result<TriMesh, ReadError> {
 pub fn parse(format: Format, bytes: &[u8]) -> Result<TriMesh, ReadError> {
     let mesh = match format {
         Format::Obj => obj::parse(bytes),
-        _ => Err(ReadError::Unsupported { what: format.to_string() }),
+        Format::Ply => ply::parse(bytes),
+        Format::Stl => stl::parse(bytes),
+        Format::Off => off::parse(bytes),
+        Format::Glb => glb::parse(bytes),
     }?;
     if mesh.faces.is_empty() {
         return Err(ReadError::NoFaces { vertices: mesh.positions.len() });
@@ -138,7 +146,10 @@ pub fn parse(format: Format, bytes: &[u8]) -> Result<TriMesh, ReadError> {
 pub fn to_bytes(format: Format, mesh: &TriMesh, options: &WriteOptions) -> Vec<u8> {
     match format {
         Format::Obj => obj::to_bytes(mesh, options),
-        _ => Vec::new(),
+        Format::Ply => ply::to_bytes(mesh, options),
+        Format::Stl => stl::to_bytes(mesh, options),
+        Format::Off => off::to_bytes(mesh, options),
+        Format::Glb => glb::to_bytes(mesh, options),
     }
 }
 

@@ -89,21 +89,23 @@ impl ClosestPoint {
                         let node = &self.bvh.nodes[node];
                         let mut bounds = [0f32; 4];
                         for (axis, at) in at.to_array().into_iter().enumerate() {
-                            for k in 0..4 {
-                                let d = (node.lo[axis][k] - at).max(at - node.hi[axis][k]).max(0.0);
-                                bounds[k] += d * d;
+                            for (bound, (lo, hi)) in
+                                bounds.iter_mut().zip(node.lo[axis].iter().zip(&node.hi[axis]))
+                            {
+                                let d = (lo - at).max(at - hi).max(0.0);
+                                *bound += d * d;
                             }
                         }
                         // The nearest child is next; the others wait, the nearest of them on top.
                         let first = height;
-                        for k in 0..4 {
-                            if bounds[k] <= limit {
+                        for (bound, child) in bounds.into_iter().zip(node.children) {
+                            if bound <= limit {
                                 let mut slot = height;
-                                while slot > first && stack[slot - 1].0 < bounds[k] {
+                                while slot > first && stack[slot - 1].0 < bound {
                                     stack[slot] = stack[slot - 1];
                                     slot -= 1;
                                 }
-                                stack[slot] = (bounds[k], node.children[k]);
+                                stack[slot] = (bound, child);
                                 height += 1;
                             }
                         }

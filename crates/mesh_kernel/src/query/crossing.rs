@@ -91,8 +91,10 @@ impl Crossings {
                     let node = &self.bvh.nodes[node];
                     let mut apart = [false; 4];
                     for axis in 0..3 {
-                        for k in 0..4 {
-                            apart[k] |= (node.lo[axis][k] > to[axis]) | (node.hi[axis][k] < from[axis]);
+                        for (apart, (lo, hi)) in
+                            apart.iter_mut().zip(node.lo[axis].iter().zip(&node.hi[axis]))
+                        {
+                            *apart |= (*lo > to[axis]) | (*hi < from[axis]);
                         }
                     }
                     stack.extend((0..4).filter(|k| !apart[*k]).map(|k| node.children[k]));

@@ -59,7 +59,7 @@ pub fn shared_body(name: &str) -> Option<TriMesh> {
         assert!(!required, "{} is missing", path.display());
         return None;
     }
-    Some(read(&path).unwrap())
+    Some(read(&path).unwrap_or_else(|error| panic!("{error}")))
 }
 
 /// Numbers in [0, 1), the same every time.
