@@ -4,7 +4,7 @@ use mesh_kernel::glam::{DVec2, DVec3};
 use mesh_kernel::query::plane_section;
 use rayon::prelude::*;
 
-use super::figure::{Figure, Level, Side};
+use super::figure::{Figure, Level, Side, ramp};
 use super::marks::Marks;
 use super::normals::NormalField;
 use super::ring::{Gaps, Ring, depth_at, outer_rings, perimeter};
@@ -89,15 +89,26 @@ fn trunk_levels(figure: &Figure<'_>, marks: &Marks) -> Result<TrunkLevels, Strin
     let underbust = underbust(figure, marks, armpit_y - 0.068 * s);
     let navel = crotch_y + 0.483 * (armpit_y - crotch_y);
     let hip = fullest(crotch_y, navel).ok_or_else(|| missing("hip"))?;
-    let waist = tapes
-        .iter()
-        .filter(|t| t.0 > hip && t.0 <= underbust.min(armpit_y - 0.068 * s))
-        .min_by(|a, b| a.1.total_cmp(&b.1))
-        .map(|t| t.0)
-        .ok_or_else(|| missing("waist"))?;
+    let ceiling = underbust.min(armpit_y - 0.068 * s);
+    let waist = waist(&tapes, hip, ceiling, s).ok_or_else(|| missing("waist"))?;
     let bust = fullest(underbust, chest).ok_or_else(|| missing("bust"))?;
     let high_hip = hip + 0.5 * (waist - hip);
     Ok(TrunkLevels { chest, bust, underbust, waist, high_hip, hip })
+}
+
+/// The narrowest height between hip and underbust. On a trunk that narrows all the way up to the chest, the height
+/// where it has narrowed most compared with an even taper; between the two cases the answer passes smoothly.
+fn waist(tapes: &[(f64, f64)], hip: f64, ceiling: f64, stature: f64) -> Option<f64> {
+    let range: Vec<(f64, f64)> = tapes.iter().copied().filter(|t| t.0 > hip && t.0 <= ceiling).collect();
+    let narrowest = range.iter().min_by(|a, b| a.1.total_cmp(&b.1))?.0;
+    let own = ramp(0.006 * stature, 0.016 * stature, ceiling - narrowest);
+    if own >= 1.0 {
+        return Some(narrowest);
+    }
+    let (low, high) = (range[0], range[range.len() - 1]);
+    let even = |y: f64| low.1 + (high.1 - low.1) * (y - low.0) / (high.0 - low.0).max(1e-9);
+    let bent = range.iter().min_by(|a, b| (a.1 - even(a.0)).total_cmp(&(b.1 - even(b.0))))?.0;
+    Some(bent + own * (narrowest - bent))
 }
 
 /// Below the breasts: the deepest fold of the front contour through the bust points.
@@ -295,7 +306,9 @@ fn armhole(figure: &Figure<'_>, marks: &Marks, side: Side, field: &NormalField) 
     let middle = (top + bottom) / 2.0;
     let front = down.cross(out) * side.sign();
     let flat = |p: DVec3| DVec2::new((p - middle).dot(front), (p - middle).dot(-down));
-    let rings = outer_rings(&plane_section(figure.mesh, middle, out), 25.0, Gaps::Join, flat);
+    // Just inside a plate, not in it.
+    let cut = if marks.plates[i] { middle - out * 3.0 } else { middle };
+    let rings = outer_rings(&plane_section(figure.mesh, cut, out), 25.0, Gaps::Join, flat);
     let reach = top.distance(bottom) / 2.0;
     // Radial about the middle; below the armpit the trunk's side is cut off at the armpit.
     let count = 48;

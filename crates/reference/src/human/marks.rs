@@ -4,6 +4,7 @@ use mesh_kernel::glam::{DVec2, DVec3};
 use mesh_kernel::query::SectionStack;
 
 use super::figure::{Figure, Level, Side, ramp, smooth};
+use super::plates::arm_plate;
 use super::ring::{Ring, breadth_at, depth_at};
 
 /// Landmarks in the canonical frame. Pairs are left, right.
@@ -17,6 +18,8 @@ pub(crate) struct Marks {
     pub(crate) armpit: [DVec3; 2],
     /// Height from which the trunk's outline holds the arm.
     pub(crate) joined: [f64; 2],
+    /// Whether a flat plate ends the shoulder instead of an arm.
+    pub(crate) plates: [bool; 2],
     pub(crate) shoulder: [DVec3; 2],
     pub(crate) neck_side: [DVec3; 2],
     pub(crate) nape: DVec3,
@@ -52,29 +55,33 @@ impl Marks {
 pub(crate) fn find(figure: &Figure<'_>, warnings: &mut Vec<String>) -> Result<Marks, String> {
     let h = figure.height;
     let Crotch { point: crotch, level: crotch_level, legs } = crotch(figure, warnings);
-    let armpits: Vec<Option<Armpit>> = Side::BOTH.iter().map(|s| armpit(figure, *s)).collect();
-    let armpits = match (armpits[0], armpits[1]) {
-        (Some(l), Some(r)) => [l, r],
-        (Some(one), None) | (None, Some(one)) => {
+    let head = has_head(figure);
+    let guess = stature_guess(figure);
+    let found = Side::BOTH.map(|s| armpit(figure, guess, s).or_else(|| plate(figure, guess, s)));
+    let armpits = match found {
+        [Some(l), Some(r)] => [l, r],
+        [Some(one), None] | [None, Some(one)] => {
             warnings.push("one armpit was not found: the other one's mirror image is taken".to_owned());
-            let other = Armpit { place: DVec3::new(-one.place.x, one.place.y, one.place.z), ..one };
+            let mirrored = |p: DVec3| DVec3::new(-p.x, p.y, p.z);
+            let other = Armpit { place: mirrored(one.place), plate_top: one.plate_top.map(mirrored), ..one };
             if one.place.x > 0.0 { [one, other] } else { [other, one] }
         }
-        (None, None) => return Err("no arms or armholes stand out from the trunk".to_owned()),
+        [None, None] => return Err("no arms or armholes stand out from the trunk".to_owned()),
     };
     let (armpit, joined) = (armpits.map(|a| a.place), armpits.map(|a| a.joined));
     let armpit_y = (armpit[0].y + armpit[1].y) / 2.0;
-    let head = has_head(figure, armpit_y);
-    // From crotch to armpit is 0.285 of the stature within 3 % (twelve bodies); it serves where the head is missing.
+    // From crotch to armpit is 0.285 of the stature within 3 %.
     let stature = if head { h } else { (armpit_y - crotch_level) / 0.285 };
-    if !(0.62..0.85).contains(&(armpit_y / h)) && head {
+    eprintln!("head {head} guess {guess} stature {stature} crotch {crotch_level} armpit {armpit_y}");
+    if !(0.62..0.85).contains(&(armpit_y / stature)) {
         return Err(format!(
             "the armpits would lie at {:.0} % of the height (people: 72 to 79 %)",
-            armpit_y / h * 100.0
+            armpit_y / stature * 100.0
         ));
     }
     let profile = Profile::new(figure, armpit_y - 0.12 * stature, (armpit_y + 0.19 * stature).min(0.995 * h));
     let (nape, front_neck) = neck_marks(&profile, armpit_y, stature, head, warnings)?;
+    let plates = armpits.map(|a| a.plate_top.is_some());
     let neck_side = [
         neck_side(figure, nape, front_neck, stature, Side::Left),
         neck_side(figure, nape, front_neck, stature, Side::Right),
@@ -84,7 +91,8 @@ pub(crate) fn find(figure: &Figure<'_>, warnings: &mut Vec<String>) -> Result<Ma
     let mut shoulder_line = [Vec::new(), Vec::new()];
     for side in Side::BOTH {
         let i = side.index();
-        shoulder[i] = shoulder_point(&across, armpit[i], stature, side);
+        shoulder[i] =
+            armpits[i].plate_top.unwrap_or_else(|| shoulder_point(&across, armpit[i], stature, side));
         shoulder_line[i] = ridge(&across, neck_side[i], shoulder[i]);
     }
     let navel = navel(figure, crotch_level, armpit_y, stature);
@@ -96,6 +104,7 @@ pub(crate) fn find(figure: &Figure<'_>, warnings: &mut Vec<String>) -> Result<Ma
         crotch_level,
         armpit,
         joined,
+        plates,
         shoulder,
         neck_side,
         nape,
@@ -109,6 +118,24 @@ pub(crate) fn find(figure: &Figure<'_>, warnings: &mut Vec<String>) -> Result<Ma
     })
 }
 
+/// The stature, also of a form without a head: there, legs are 0.48 of the stature within 4 %.
+pub(crate) fn stature_guess(figure: &Figure<'_>) -> f64 {
+    if has_head(figure) { figure.height } else { figure.levels[lowest_joined(figure)].y / 0.48 }
+}
+
+/// The lowest level, going down from the waist, that crosses the plane of symmetry.
+fn lowest_joined(figure: &Figure<'_>) -> usize {
+    let mut i = figure.index(0.58 * figure.height);
+    while i > 0 && joined(&figure.levels[i - 1]) {
+        i -= 1;
+    }
+    i
+}
+
+fn joined(level: &Level) -> bool {
+    level.trunk().is_some_and(|t| depth_at(&t.points, 0.0).is_some())
+}
+
 /// Where the legs join: the crotch point, the height at which they do, and whether there are two at all.
 struct Crotch {
     point: DVec3,
@@ -119,11 +146,7 @@ struct Crotch {
 /// Where the legs join, going down from the waist: the lowest point of the section through the plane of symmetry.
 fn crotch(figure: &Figure<'_>, warnings: &mut Vec<String>) -> Crotch {
     let h = figure.height;
-    let joined = |l: &Level| l.trunk().is_some_and(|t| depth_at(&t.points, 0.0).is_some());
-    let mut i = figure.index(0.58 * h);
-    while i > 0 && joined(&figure.levels[i - 1]) {
-        i -= 1;
-    }
+    let i = lowest_joined(figure);
     let mut torn = false;
     let mut legs = i > figure.index(0.36 * h);
     let mut y = figure.levels[i].y;
@@ -184,8 +207,7 @@ fn half_breadth(level: &Level, side: Side) -> Option<f64> {
 }
 
 /// Going up, the height where the trunk's outline takes in the arm: it becomes broader faster than any flank does.
-fn armpit(figure: &Figure<'_>, side: Side) -> Option<Armpit> {
-    let h = figure.height;
+fn armpit(figure: &Figure<'_>, h: f64, side: Side) -> Option<Armpit> {
     let (low, high) = (figure.index(0.655 * h), figure.index(0.86 * h));
     let breadth: Vec<Option<f64>> = figure.levels[low..=high].iter().map(|l| half_breadth(l, side)).collect();
     let ahead = ((0.018 * h / figure.step) as usize).max(1);
@@ -215,7 +237,13 @@ fn armpit(figure: &Figure<'_>, side: Side) -> Option<Armpit> {
     let spot = arm.and_then(|a| between(trunk, a, 0.03 * h)).unwrap_or_else(|| extreme(trunk, side));
     // The web between front and back fold is not level: it is lowest in front of its middle.
     let z = spot.y - 0.006 * h;
-    Some(Armpit { place: DVec3::new(spot.x, y, z), joined })
+    Some(Armpit { place: DVec3::new(spot.x, y, z), joined, plate_top: None })
+}
+
+/// The armhole of an armless dress form.
+fn plate(figure: &Figure<'_>, stature: f64, side: Side) -> Option<Armpit> {
+    let plate = arm_plate(figure.mesh, side, 0.66 * stature, 0.88 * stature, stature)?;
+    Some(Armpit { place: plate.bottom, joined: f64::INFINITY, plate_top: Some(plate.top) })
 }
 
 /// An armpit, and the height from which outlines take in the arm: lower than the armpit if there is a hole.
@@ -223,6 +251,8 @@ fn armpit(figure: &Figure<'_>, side: Side) -> Option<Armpit> {
 struct Armpit {
     place: DVec3,
     joined: f64,
+    /// Upper end of the plate of an armless form.
+    plate_top: Option<DVec3>,
 }
 
 /// Outermost place of an outline, averaged over the outermost 2 mm.
@@ -271,20 +301,16 @@ fn between(trunk: &Ring, arm: &Ring, widest: f64) -> Option<DVec2> {
 }
 
 /// A head is broader than the neck below it.
-fn has_head(figure: &Figure<'_>, armpit_y: f64) -> bool {
+fn has_head(figure: &Figure<'_>) -> bool {
     let h = figure.height;
-    let widths: Vec<f64> = figure
-        .between(armpit_y + 0.05 * h, 0.985 * h)
-        .iter()
-        .filter_map(|l| l.trunk().map(|t| t.area))
-        .collect();
-    let Some(narrow) = (0..widths.len()).min_by(|a, b| widths[*a].total_cmp(&widths[*b])) else {
-        return false;
-    };
-    let neck = widths[..widths.len() * 9 / 10].iter().copied().fold(f64::INFINITY, f64::min);
-    let _ = narrow;
-    let at = widths.iter().position(|w| *w <= neck).unwrap_or(0);
-    widths[at..].iter().copied().fold(0.0, f64::max) > 1.25 * neck && (h - armpit_y) > 0.17 * h
+    let areas: Vec<f64> =
+        figure.between(0.76 * h, 0.985 * h).iter().filter_map(|l| l.trunk().map(|t| t.area)).collect();
+    let chest = figure.between(0.5 * h, 0.8 * h).iter().filter_map(Level::trunk).map(|t| t.area).fold(0.0, f64::max);
+    // The narrowest level that is not at the very top: a rounded head is narrow there, too.
+    let neck = areas[..areas.len() * 4 / 5].iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1));
+    neck.is_some_and(|(i, neck)| {
+        *neck < 0.35 * chest && areas[i..].iter().copied().fold(0.0, f64::max) > 1.25 * neck
+    })
 }
 
 /// Back and front contour on the plane of symmetry, smoothed over 8 mm.
@@ -328,7 +354,16 @@ fn neck_marks(
     if profile.y.len() < 12 {
         return Err("there is no neck above the shoulders".to_owned());
     }
-    let top = profile.y[profile.y.len() - 1];
+    let mut top = profile.y[profile.y.len() - 1];
+    if !head {
+        // The neck plate, whose front edge is low, is not part of the neck's contour.
+        let mut i = profile.y.len() - 1;
+        while i > 2 && profile.front[i - 1] - profile.front[i] > 1.2 * (profile.y[i] - profile.y[i - 1]) {
+            i -= 1;
+        }
+        // The contour is smoothed: stay clear of the edge.
+        top = profile.y[i.saturating_sub(2)];
+    }
     let nape_y = if head {
         // The nape lies below the deepest place of the neck's hollow by 4.9 % of the stature (within 5 mm).
         let range = armpit_y + 0.07 * stature..armpit_y + 0.165 * stature;

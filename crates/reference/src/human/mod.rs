@@ -9,6 +9,7 @@ mod heading;
 mod limbs;
 mod marks;
 mod normals;
+mod plates;
 mod ring;
 mod upright;
 mod verticals;
@@ -163,7 +164,7 @@ pub fn extract(raw: &TriMesh, options: &HumanOptions) -> Result<HumanBody, Human
 
     let mut warnings = Vec::new();
     let mut figure = figure::Figure::new(&surface, height);
-    let mut votes = facing::votes(&figure);
+    let mut votes = facing::votes(&figure, marks::stature_guess(&figure));
     if let Some(wanted) = options.facing {
         votes = placement.rotation.transpose().mul_vec3(wanted).z;
     } else if votes.abs() < 0.6 {
