@@ -61,7 +61,7 @@ fn check_girths(name: &str, form: &DressForm) {
     }
     let hip = extreme(mesh, l.crotch + 2.0, l.waist, true);
     assert!(m.waist > m.hip || (hip - 10.0 * m.hip).abs() < 1.0, "{name}: fullest hip {hip}, asked {}", m.hip * 10.0);
-    let bust = extreme(mesh, l.underbust, l.armpit - 0.012 * l.stature, true);
+    let bust = extreme(mesh, l.underbust, l.armpit - 0.016 * l.stature, true);
     assert!((bust - 10.0 * m.bust).abs() < 1.0, "{name}: fullest bust {bust}, asked {}", m.bust * 10.0);
     if m.waist < m.underbust && m.waist < m.hip {
         let waist = extreme(mesh, l.hip, l.underbust, false);

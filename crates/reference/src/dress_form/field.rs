@@ -157,7 +157,7 @@ impl Field {
         let cos = arm_axis.dot(plate_normal);
         let across = DVec3::new(-arm_axis.y, arm_axis.x, 0.0);
         let half_height = 0.47 * (top - bottom).length() * cos;
-        let half_depth = (m.upper_arm * 10.0 / std::f64::consts::TAU * 1.14).clamp(0.60 * half_height, 1.15 * half_height);
+        let half_depth = (m.upper_arm * 10.0 / std::f64::consts::TAU * 1.0).clamp(0.60 * half_height, 1.15 * half_height);
         let arm = Stub {
             origin: middle - arm_axis * (0.9 * half_height),
             axis: arm_axis,
@@ -254,10 +254,10 @@ impl Field {
         let below = levels.bust - levels.underbust;
         // As long upward as leaves the bust point the fullest.
         let above = levels.bust + 0.40 * (levels.armpit - levels.bust);
-        let (mut short, mut long) = (0.9 * below, 1.7 * below);
+        let (mut short, mut long) = (1.15 * below, 1.75 * below);
         for _ in 0..30 {
             let middle = 0.5 * (short + long);
-            *(if girth_at(low, above, middle) < 0.985 * want { &mut short } else { &mut long }) = middle;
+            *(if girth_at(low, above, middle) < 0.995 * want { &mut short } else { &mut long }) = middle;
         }
         Some(Breast {
             centre: DVec3::new(x, levels.bust, z),

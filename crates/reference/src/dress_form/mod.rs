@@ -103,6 +103,7 @@ impl DressForm {
             tape::warp(&mut half, &field, &factor);
         }
         tape::check(&half, &levels, &resolved)?;
+        let levels = as_built(levels, &half);
         let (mesh, labels) = mirrored(&half);
         let plates = plates(&mesh, &labels, &field);
         Ok(Self { mesh, measurements: resolved, levels, plates })
@@ -120,6 +121,20 @@ fn half_form(field: &Field, cell: f64) -> Patch {
         z: [z[0] - margin, z[1] + margin],
     };
     clip::clip(polygonize::polygonize(|p| field.closed(p, margin), &bounds, cell), &field.cuts)
+}
+
+/// The levels that the finished surface itself decides: crotch, armpit and shoulder point.
+fn as_built(mut levels: Levels, half: &Patch) -> Levels {
+    let (knee, hip) = (levels.knee, levels.hip);
+    let middle = half.positions.iter().filter(|p| p.x == 0.0 && p.y > knee && p.y < hip);
+    levels.crotch = middle.map(|p| p.y).fold(hip, f64::min);
+    let arm = half.faces.iter().zip(&half.label).filter(|(_, l)| **l as usize == field::ARM + 1);
+    let heights = arm.flat_map(|(face, _)| face.map(|v| half.positions[v as usize].y));
+    let [low, high] = heights.fold([f64::MAX, f64::MIN], |[a, b], y| [a.min(y), b.max(y)]);
+    if low < high {
+        (levels.armpit, levels.shoulder) = (low, high);
+    }
+    levels
 }
 
 /// The whole mesh and the plate label of every face; nodes of the plane of symmetry are shared.

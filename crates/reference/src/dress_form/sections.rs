@@ -118,8 +118,8 @@ fn depths(figure: Figure) -> [[f64; 2]; 6] {
 fn rib_shares(figure: Figure) -> [f64; 2] {
     match figure {
         Figure::Woman => [0.45, 0.43],
-        Figure::Man => [1.0, 0.80],
-        Figure::Child => [1.0, 0.72],
+        Figure::Man => [1.0, 0.92],
+        Figure::Child => [1.0, 0.85],
     }
 }
 
@@ -226,9 +226,9 @@ impl Sections {
                 if y < levels.crotch { legs.section(y) } else { trunk(y) }.to_array()
             })
             .collect();
-        // Sizes and middles; the parting opens the crotch where it shall.
+        // Less for the parting, which opens the crotch.
         let spread = 0.0085 * h / table_step;
-        Self { step: table_step, spread, table: smoothed(&table, spread, &[0, 1, 2, 5, 6]), parting }
+        Self { step: table_step, spread, table: smoothed(&smoothed(&table, spread, &[0, 1, 2, 5, 6]), 0.5 * spread, &[3, 4]), parting }
     }
 
     /// Girth by height of the trunk without breasts.
@@ -275,6 +275,9 @@ impl Sections {
     }
 }
 
+/// Share of the hip's tape that the trunk's section makes; the seat's own swelling makes the rest.
+const SEAT_SHARE: f64 = 0.983;
+
 /// Both legs as one parted section.
 struct Legs {
     /// Of one leg.
@@ -317,7 +320,7 @@ impl Legs {
         let round = thigh / std::f64::consts::TAU;
         let roomy = (0.972 * hip - 1.03 * thigh) / 4.0 - parting;
         let from_hip = |share: f64, y: f64| {
-            let line = 0.5 * (share * hip_section.half_width - gap.get(y));
+            let line = 0.5 * (share * SEAT_SHARE * hip_section.half_width - gap.get(y));
             line.clamp(0.84 * round, 1.04 * round).min(roomy)
         };
         let outer = |a: f64, y: f64| (y, 2.0 * a + gap.get(y));
