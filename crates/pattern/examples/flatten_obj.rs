@@ -21,7 +21,8 @@ fn read(path: &str, scale: f64) -> TriMesh {
                 mesh.groups.push(Group { name: words[1].to_owned(), faces: end..end });
             }
             Some(&"f") => {
-                mesh.faces.push([1, 2, 3].map(|i| words[i].split('/').next().unwrap().parse::<u32>().unwrap() - 1));
+                mesh.faces
+                    .push([1, 2, 3].map(|i| words[i].split('/').next().unwrap().parse::<u32>().unwrap() - 1));
                 if let Some(group) = mesh.groups.last_mut() {
                     group.faces.end = mesh.faces.len() as u32;
                 }
@@ -61,7 +62,10 @@ fn main() {
     }
     for (name, paper) in Paper::NAMES {
         let title = "flatten_obj".to_owned();
-        write(&format!(".{name}.pdf"), to_pdf(&pattern, &PdfOptions { paper, title, sample_size: "38".to_owned() }));
+        write(
+            &format!(".{name}.pdf"),
+            to_pdf(&pattern, &PdfOptions { paper, title, sample_size: "38".to_owned() }),
+        );
     }
     write(".svg", to_svg(&pattern, &SvgOptions::default()).into_bytes());
     write(".json", to_json(&pattern, &JsonOptions::default()).into_bytes());

@@ -11,7 +11,8 @@ fn flat() -> Patch {
 }
 
 fn error(patch: Patch) -> PatternError {
-    make(&PatternInput { patches: vec![patch], ..PatternInput::default() }, &PatternOptions::default()).unwrap_err()
+    make(&PatternInput { patches: vec![patch], ..PatternInput::default() }, &PatternOptions::default())
+        .unwrap_err()
 }
 
 #[test]
