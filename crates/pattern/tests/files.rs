@@ -1,4 +1,5 @@
 //! Files: tokens of the DXF dialects, sizes of SVG and PDF, JSON that tells what is sewn to what.
+#![allow(clippy::unwrap_used)]
 
 mod surfaces;
 

@@ -1,4 +1,5 @@
 //! Pieces: allowances and corners, notches across seams, grain, folds, layout.
+#![allow(clippy::unwrap_used)]
 
 mod surfaces;
 

@@ -1,4 +1,5 @@
 //! Bad input gives a typed error that says what and where.
+#![allow(clippy::unwrap_used)]
 
 mod surfaces;
 
