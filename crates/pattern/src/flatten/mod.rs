@@ -47,7 +47,7 @@ pub(crate) struct FlatPatch {
 }
 
 /// A kept hole that costs more stretch than this is cut open after all.
-const POOR_STRETCH: f64 = 0.02;
+const POOR_STRETCH: f64 = 0.01;
 
 struct Work {
     before: Topology,
@@ -132,9 +132,11 @@ fn flatten_one(
     loop {
         let open = cut::open(&patch.name, &before, &patch.positions, &given, &preferred, policy)?;
         let space: Vec<DVec3> = open.classes.node_of.iter().map(|&v| patch.positions[v as usize]).collect();
+        let sewn = !open.cut_paths.is_empty() || input.seams.iter().flat_map(|s| &s.sides).any(|s| s.patch == p);
+        let stop = if sewn && options.match_seams { Stop::ROUGH } else { Stop::default() };
         let mut sheet = Sheet::new(&open.topology, &space).map_err(|_| unsolvable(&patch.name))?;
         initial::start(&mut sheet).map_err(|_| unsolvable(&patch.name))?;
-        let outcome = newton::minimise(&mut sheet, Stop::default()).map_err(|_| unsolvable(&patch.name))?;
+        let outcome = newton::minimise(&mut sheet, stop).map_err(|_| unsolvable(&patch.name))?;
         if open.kept_holes {
             let (stretch, _) = stretches(&sheet);
             if stretch > POOR_STRETCH || overlap::crossings(&sheet.flat, &sheet.loops) > 0 {
