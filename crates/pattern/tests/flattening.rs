@@ -1,4 +1,5 @@
 //! Flattening: exact where the surface is developable, least stretch elsewhere, seams equal, never a flip.
+#![allow(clippy::unwrap_used)]
 
 mod surfaces;
 
@@ -49,13 +50,11 @@ fn curved_surfaces_reach_the_least_energy_known() {
 #[test]
 fn seam_partners_get_equal_lengths() {
     let (n, m) = (12, 20);
-    let patches = vec![barrel("front", 0.0, 0.9, n, m), barrel("side", 0.9, 1.4, n, m), barrel("back", 1.4, 2.6, n, m)];
+    let patches =
+        vec![barrel("front", 0.0, 0.9, n, m), barrel("side", 0.9, 1.4, n, m), barrel("back", 1.4, 2.6, n, m)];
     let seam = |name: &str, a: usize, b: usize| SeamInput {
         name: name.to_owned(),
-        sides: vec![
-            SeamSide { patch: a, nodes: column(m, n) },
-            SeamSide { patch: b, nodes: column(m, 0) },
-        ],
+        sides: vec![SeamSide { patch: a, nodes: column(m, n) }, SeamSide { patch: b, nodes: column(m, 0) }],
     };
     let mut input = PatternInput { patches, ..PatternInput::default() };
     let free = flatten(&input);
@@ -67,7 +66,12 @@ fn seam_partners_get_equal_lengths() {
         assert!((check.lengths_2d[0] / check.length_3d - 1.0).abs() < 0.05);
     }
     for (a, b) in free.pieces.iter().zip(&sewn.pieces) {
-        assert!(b.report.energy < 4.0 + 4.0 * (a.report.energy - 4.0).max(1e-4), "{} {}", a.report.energy, b.report.energy);
+        assert!(
+            b.report.energy < 4.0 + 4.0 * (a.report.energy - 4.0).max(1e-4),
+            "{} {}",
+            a.report.energy,
+            b.report.energy
+        );
         assert_eq!((b.report.flipped, b.report.overlaps), (0, 0));
     }
 }
@@ -75,10 +79,10 @@ fn seam_partners_get_equal_lengths() {
 #[test]
 fn three_patches_share_a_seam_and_one_of_them_inside() {
     let (n, m) = (10, 16);
-    let patches = vec![barrel("left", 0.0, 0.8, n, m), barrel("right", 0.8, 1.6, n, m), barrel("over", 0.4, 1.2, n, m)];
-    let sides = [(0, n), (1, 0), (2, n / 2)]
-        .map(|(patch, i)| SeamSide { patch, nodes: column(m, i) })
-        .to_vec();
+    let patches =
+        vec![barrel("left", 0.0, 0.8, n, m), barrel("right", 0.8, 1.6, n, m), barrel("over", 0.4, 1.2, n, m)];
+    let sides =
+        [(0, n), (1, 0), (2, n / 2)].map(|(patch, i)| SeamSide { patch, nodes: column(m, i) }).to_vec();
     let seams = vec![SeamInput { name: "joint".to_owned(), sides }];
     let pattern = flatten(&PatternInput { patches, seams, ..PatternInput::default() });
     let check = &pattern.seams[0];

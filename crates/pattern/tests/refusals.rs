@@ -1,4 +1,5 @@
 //! Bad input gives a typed error that says what and where.
+#![allow(clippy::unwrap_used)]
 
 mod surfaces;
 
@@ -11,7 +12,8 @@ fn flat() -> Patch {
 }
 
 fn error(patch: Patch) -> PatternError {
-    make(&PatternInput { patches: vec![patch], ..PatternInput::default() }, &PatternOptions::default()).unwrap_err()
+    make(&PatternInput { patches: vec![patch], ..PatternInput::default() }, &PatternOptions::default())
+        .unwrap_err()
 }
 
 #[test]
