@@ -4,16 +4,32 @@
 //! whose nodes are stored relative to the features of a body. [`regenerate`](regenerate()) rebuilds it on any body with the same
 //! features.
 
+mod collision;
+mod complex;
+mod construct;
+mod ease;
 pub mod encoding;
 pub mod error;
 pub mod fairing;
 pub mod format;
+mod garment;
+mod joints;
 mod layout;
 pub mod lines;
+mod outline;
 mod place;
+mod refine;
+mod regenerate;
 mod skin;
 
+pub use collision::CollisionReport;
+pub use construct::Method;
 pub use error::TemplateError;
+pub use garment::{
+    Garment, GarmentLine, GarmentPiece, GarmentSurface, Mark, PieceEdge, Seam, Seconds, SurfaceChain,
+};
+pub use place::SCALE_STATURE;
+pub use regenerate::{Reference, RegenerateOptions, regenerate};
 
 /// A template that was read, checked and written out.
 #[derive(Clone, Debug)]

@@ -84,7 +84,7 @@ fn chains(edges: &BTreeSet<[u32; 2]>) -> Vec<(Vec<u32>, bool)> {
     }
     let mut used: BTreeSet<[u32; 2]> = BTreeSet::new();
     let mut out = Vec::new();
-    let mut walk = |start: u32, next: u32, used: &mut BTreeSet<[u32; 2]>| {
+    let walk = |start: u32, next: u32, used: &mut BTreeSet<[u32; 2]>| {
         let mut nodes = vec![start];
         let (mut from, mut to) = (start, next);
         while used.insert([from.min(to), from.max(to)]) {

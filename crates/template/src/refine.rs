@@ -42,14 +42,17 @@ pub(crate) struct Refined {
     pub(crate) level_faces: Vec<Vec<Vec<[u32; 3]>>>,
     /// Node counts of each surface at each level.
     pub(crate) level_nodes: Vec<Vec<usize>>,
+    /// The line of each edge of each surface at the finest level.
+    pub(crate) edge_lines: Vec<Vec<Option<OnLine>>>,
 }
 
-#[derive(Clone, Copy)]
-struct OnLine {
-    line: u32,
-    span: u32,
+/// An edge's part of a line.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OnLine {
+    pub(crate) line: u32,
+    pub(crate) span: u32,
     /// Arc-length shares at the edge's first and second node.
-    ends: [f64; 2],
+    pub(crate) ends: [f64; 2],
 }
 
 impl Refined {
@@ -127,7 +130,7 @@ impl Refined {
                 twins[w] = NONE;
             }
         }
-        Ok(Self { body, ids, tags, weld, flat, welded_tags, twins, level_faces, level_nodes })
+        Ok(Self { body, ids, tags, weld, flat, welded_tags, twins, level_faces, level_nodes, edge_lines: on_line })
     }
 
     /// Faces of a surface over welded nodes, at the finest level.

@@ -224,7 +224,7 @@ impl Plate {
 }
 
 /// Entries of one flap's stiffness among unknowns, lower triangle: row, column, value.
-fn pairs<'a>(flap: &'a Flap, unknown: &'a [u32]) -> impl Iterator<Item = (u32, u32, f64)> + 'a {
+fn pairs<'a>(flap: &'a Flap, unknown: &'a [u32]) -> impl Iterator<Item = (u32, u32, f64)> + Clone + 'a {
     (0..4).flat_map(move |i| {
         (0..=i).filter_map(move |j| {
             let (u, v) = (unknown[flap.nodes[i] as usize], unknown[flap.nodes[j] as usize]);

@@ -1,0 +1,292 @@
+//! Regeneration (T8): a template and a body in, a garment out, with no person in between.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+use glam::DVec3;
+use mesh_kernel::TriMesh;
+use mesh_kernel::query::Crossings;
+use reference::{FeatureCurve, Features};
+
+use crate::Template;
+use crate::collision::Drape;
+use crate::construct::{Construction, Method};
+use crate::ease::{Secant, body_girth, garment_girth};
+use crate::error::TemplateError;
+use crate::format::check::DEEPEST;
+use crate::garment::{self, Garment, Seconds};
+use crate::layout::{Layout, LayoutLine};
+use crate::place::Placing;
+use crate::refine::{Refined, Tag};
+use crate::skin::Skin;
+use crate::{complex, joints, outline};
+
+/// A body with its features, both in the canonical frame (millimetres, y up, facing +z).
+#[derive(Clone, Copy, Debug)]
+pub struct Reference<'a> {
+    /// The body's mesh.
+    pub mesh: &'a TriMesh,
+    /// Its features.
+    pub features: &'a Features,
+}
+
+/// How to regenerate.
+#[derive(Clone, Copy, Default)]
+pub struct RegenerateOptions<'a> {
+    /// Splits instead of the template's `level`.
+    pub levels: Option<u8>,
+    /// How surfaces are made smooth.
+    pub method: Method,
+    /// Set it from elsewhere to stop the work.
+    pub cancel: Option<&'a AtomicBool>,
+    /// Told how far the work is (0 to 1) and what is done.
+    pub progress: Option<&'a (dyn Fn(f64, &str) + Sync)>,
+}
+
+/// An ease within this is right, mm.
+const EASE_AIM: f64 = 1.5;
+/// An ease further off than this is reported, mm.
+const EASE_TOLERANCE: f64 = 10.0;
+/// Rounds of the ease solver.
+const EASE_ROUNDS: usize = 9;
+/// More template faces than this times four to the level are refused.
+const MOST_FACES: usize = 4_000_000;
+/// Each layer keeps this much more clearance than the one below, mm.
+const LAYER_STEP: f64 = 3.0;
+
+struct Clock<'a> {
+    options: &'a RegenerateOptions<'a>,
+    start: Instant,
+    last: Instant,
+}
+
+impl Clock<'_> {
+    /// Reports progress, stops when cancelled, and tells the seconds since the last call.
+    fn stage(&mut self, share: f64, what: &str) -> Result<f64, TemplateError> {
+        if self.options.cancel.is_some_and(|c| c.load(Ordering::Relaxed)) {
+            return Err(TemplateError::Cancelled);
+        }
+        if let Some(progress) = self.options.progress {
+            progress(share, what);
+        }
+        let now = Instant::now();
+        let seconds = (now - self.last).as_secs_f64();
+        self.last = now;
+        Ok(seconds)
+    }
+}
+
+/// A level whose girth is wanted.
+struct Level<'a> {
+    name: &'a str,
+    wanted: f64,
+    curve: &'a FeatureCurve,
+    body: f64,
+    faces: Vec<[u32; 3]>,
+    secant: Secant,
+    now: Option<f64>,
+}
+
+/// Builds a template on a body.
+///
+/// Deterministic: the same input gives the same bits on any number of threads.
+///
+/// # Errors
+/// [`TemplateError`]: a feature that the body lacks, a patch that is no manifold, joints that do not fit, cancellation.
+pub fn regenerate(
+    template: &Template,
+    reference: &Reference,
+    options: &RegenerateOptions,
+) -> Result<Garment, TemplateError> {
+    let start = Instant::now();
+    let mut clock = Clock { options, start, last: start };
+    let (layout, file) = (&template.layout, template.file());
+    let mut seconds = Seconds::default();
+    let mut warnings = Vec::new();
+    check_reference(reference)?;
+    clock.stage(0.0, "reading the body")?;
+    let skin = Skin::new(reference.mesh);
+    seconds.prepare = clock.stage(0.1, "placing nodes")?;
+
+    let placing = Placing::new(layout, reference.features, &skin)?;
+    let first = placing.place_all(&BTreeMap::new())?;
+    let patches = complex::patches(layout, &first.positions, &skin, &mut warnings)?;
+    if let Some((line, a, b)) = joints::missing_edge(layout, &patches) {
+        let name = |n: u32| &layout.nodes[n as usize].name;
+        let message = format!("no surface has an edge from `{}` to `{}`", name(a), name(b));
+        return Err(TemplateError::format(format!("lines.{line}.through"), message));
+    }
+    let levels = options.levels.unwrap_or(file.level).min(DEEPEST);
+    let coarse: usize = patches.iter().map(|p| p.faces.len()).sum();
+    if coarse.saturating_mul(1 << (2 * levels)) > MOST_FACES {
+        let message = format!("{levels} splits of {coarse} faces make more than {MOST_FACES} faces; use fewer");
+        return Err(TemplateError::format("level", message));
+    }
+    let joint_specs = joints::joints(layout, &patches)?;
+    let mut lines = layout.lines.clone();
+    lines.extend(outline::missing_lines(layout, &patches, &joint_specs, &first.positions));
+    let mut refined = Refined::new(layout, &lines, &patches, &joint_specs, &first.positions, levels)?;
+    seconds.topology = clock.stage(0.3, "factoring")?;
+
+    let construction = Construction::new(layout, &lines, &refined, options.method)?;
+    let flaps = construction.flaps().copied().collect();
+    let (clearance, level_nodes) = node_wishes(layout, &lines, &refined, file.clearance);
+    let mut drape = Drape::new(&refined, &skin, flaps, clearance, level_nodes, layout.symmetric)?;
+    let crossings = Crossings::new(reference.mesh);
+    seconds.factor = clock.stage(0.4, "fairing")?;
+
+    let mut eases = ease_levels(layout, reference.features, &refined, &mut warnings)?;
+    let mut round = 0;
+    let (positions, moved) = loop {
+        let push = eases.iter().map(|l| (l.name.to_string(), l.secant.push)).collect();
+        let placed = placing.place_all(&push)?;
+        let curves = construction.curves(&placed.positions, reference.features)?;
+        let mut positions = construction.positions(&placed.positions, &curves)?;
+        // While girths are searched, the rough contact is enough; the last time it is exact.
+        let mut moved = drape.push_out(&mut positions, 3, None)?;
+        let mut settled = true;
+        for level in &mut eases {
+            level.now = garment_girth(&positions, &level.faces, level.curve).map(|g| g - level.body);
+            let excess = level.now.map_or(0.0, |e| e - level.wanted);
+            if excess.abs() > EASE_AIM && round + 1 < EASE_ROUNDS {
+                settled &= !level.secant.step(excess);
+            }
+        }
+        round += 1;
+        clock.stage(0.4 + 0.05 * round as f64, "fairing")?;
+        if settled || round >= EASE_ROUNDS {
+            let more = drape.push_out(&mut positions, usize::MAX, Some(&crossings))?;
+            moved.iter_mut().zip(more).for_each(|(m, v)| *m += v);
+            if drape.mend(&mut positions, 0.5 * file.clearance.max(1.0)) > 0 {
+                warnings.push("some nodes inside the body had to be moved to the skin one by one".into());
+            }
+            break (positions, moved);
+        }
+    };
+    let collision = drape.report(&positions, &moved, &crossings);
+    let mut ease = BTreeMap::new();
+    for level in &eases {
+        let Some(girth) = garment_girth(&positions, &level.faces, level.curve) else { continue };
+        let got = girth - level.body;
+        if (got - level.wanted).abs() > EASE_TOLERANCE {
+            let text = format!("ease {}: {got:.0} mm instead of {:.0} mm", level.name, level.wanted);
+            let why = if got > level.wanted { "; the body needs the room" } else { "" };
+            warnings.push(format!("{text}{why}"));
+        }
+        ease.insert(level.name.to_string(), got);
+    }
+    if collision.nodes_inside > 0 || collision.faces_crossing > 0 {
+        warnings.push(format!(
+            "{} nodes inside the body, {} triangles cross it",
+            collision.nodes_inside, collision.faces_crossing
+        ));
+    }
+    drop(drape);
+    drop(construction);
+    settle(&mut refined, &positions);
+    seconds.shape = clock.stage(0.95, "naming")?;
+
+    let ease_wanted = layout.ease.iter().map(|e| (e.name.clone(), e.spec.ease)).collect();
+    let garment_lines = garment::lines(&refined, &lines, layout.lines.len());
+    seconds.total = (Instant::now() - clock.start).as_secs_f64();
+    Ok(Garment {
+        name: file.name.clone(),
+        surfaces: garment::surfaces(&refined, layout, &garment_lines),
+        seams: garment::seams(&refined),
+        marks: garment::marks(&refined, layout),
+        lines: garment_lines,
+        body: refined.body,
+        collision,
+        ease,
+        ease_wanted,
+        warnings,
+        seconds,
+    })
+}
+
+fn check_reference(reference: &Reference) -> Result<(), TemplateError> {
+    let bad = |what: &str| Err(TemplateError::BadReference(what.into()));
+    if reference.mesh.faces.is_empty() {
+        return bad("its mesh has no faces");
+    }
+    if reference.mesh.positions.iter().any(|p| !p.is_finite()) {
+        return bad("its mesh has coordinates that are no finite numbers");
+    }
+    let count = reference.mesh.positions.len() as u32;
+    if reference.mesh.faces.iter().flatten().any(|v| *v >= count) {
+        return bad("its mesh names nodes that it does not have");
+    }
+    let curves = reference.features.curves.values();
+    if curves.flat_map(|c| &c.points).any(|p| !p.is_finite()) {
+        return bad("a feature curve has coordinates that are no finite numbers");
+    }
+    Ok(())
+}
+
+/// Clearance of every welded node, and whether it keeps its height.
+fn node_wishes(layout: &Layout, lines: &[LayoutLine], refined: &Refined, clearance: f64) -> (Vec<f64>, Vec<bool>) {
+    let count = refined.flat.len();
+    let mut layer = vec![u8::MAX; count];
+    for (s, weld) in refined.weld.iter().enumerate() {
+        for w in weld {
+            let l = &mut layer[*w as usize];
+            *l = (*l).min(layout.surfaces[s].layer);
+        }
+    }
+    let kept: Vec<bool> = layout.nodes.iter().map(|n| n.spec.level.is_some()).collect();
+    let line_kept: Vec<bool> = lines.iter().map(|l| l.nodes.iter().all(|n| kept[*n as usize])).collect();
+    let level = refined.welded_tags.iter().map(|tag| match tag {
+        Tag::Template(n) => kept[*n as usize],
+        Tag::Line { line, .. } => line_kept[*line as usize],
+        Tag::Inside => false,
+    });
+    let clearances = layer.iter().map(|l| clearance + LAYER_STEP * f64::from(*l)).collect();
+    (clearances, level.collect())
+}
+
+fn ease_levels<'a>(
+    layout: &'a Layout,
+    features: &'a Features,
+    refined: &Refined,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<Level<'a>>, TemplateError> {
+    let mut out = Vec::new();
+    let lowest = layout.surfaces.iter().map(|s| s.layer).min().unwrap_or(0);
+    for ease in &layout.ease {
+        let name = ease.spec.curve.as_deref().unwrap_or(&ease.name);
+        let curve = crate::place::feature_curve(features, name, &format!("ease.{}.curve", ease.name))?;
+        let chosen: BTreeSet<usize> = if ease.surfaces.is_empty() {
+            (0..layout.surfaces.len()).filter(|s| layout.surfaces[*s].layer == lowest).collect()
+        } else {
+            ease.surfaces.iter().map(|s| *s as usize).collect()
+        };
+        if !layout.nodes.iter().any(|n| n.spec.ease.as_deref() == Some(&ease.name)) {
+            warnings.push(format!("ease {}: no node says `\"ease\": \"{}\"`, so nothing can move", ease.name, ease.name));
+        }
+        out.push(Level {
+            name: &ease.name,
+            wanted: ease.spec.ease,
+            curve,
+            body: body_girth(curve),
+            faces: chosen.iter().flat_map(|s| refined.welded_faces(*s)).collect(),
+            secant: Secant::new(),
+            now: None,
+        });
+    }
+    Ok(out)
+}
+
+/// Puts welded positions into the body; the radial order at joints follows the final shape.
+fn settle(refined: &mut Refined, positions: &[DVec3]) {
+    for (s, id) in refined.ids.iter().enumerate() {
+        let weld = &refined.weld[s];
+        for (v, p) in refined.body.surface_mut(*id).positions_mut().iter_mut().enumerate() {
+            *p = positions[weld[v] as usize];
+        }
+    }
+    let joints: Vec<_> = refined.body.joint_ids().collect();
+    for joint in joints {
+        refined.body.order_joint(joint);
+    }
+}
