@@ -88,7 +88,8 @@ impl FeatureCurve {
             return self.length();
         }
         let o = self.points[0];
-        let normal: DVec3 = self.segments().map(|(a, b)| (self.points[a] - o).cross(self.points[b] - o)).sum();
+        let normal: DVec3 =
+            self.segments().map(|(a, b)| (self.points[a] - o).cross(self.points[b] - o)).sum();
         let Some(normal) = normal.try_normalize() else { return self.length() };
         let (u, v) = normal.any_orthonormal_pair();
         let flat: Vec<DVec2> = self.points.iter().map(|p| DVec2::new(p.dot(u), p.dot(v))).collect();
@@ -257,7 +258,8 @@ fn nearest_on_segments(p1: DVec3, q1: DVec3, p2: DVec3, q2: DVec3) -> (f64, f64,
     let (a, e, f) = (d1.length_squared().max(1e-12), d2.length_squared().max(1e-12), d2.dot(r));
     let (b, c) = (d1.dot(d2), d1.dot(r));
     let denominator = a * e - b * b;
-    let mut s = if denominator > 1e-12 * a * e { ((b * f - c * e) / denominator).clamp(0.0, 1.0) } else { 0.0 };
+    let mut s =
+        if denominator > 1e-12 * a * e { ((b * f - c * e) / denominator).clamp(0.0, 1.0) } else { 0.0 };
     let mut t = (b * s + f) / e;
     if t < 0.0 {
         t = 0.0;

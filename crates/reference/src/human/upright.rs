@@ -124,7 +124,9 @@ fn judge(levels: &[Vec<Ring>]) -> Look {
     };
     let area = |rings: &[Ring]| rings.iter().map(|r| r.area).sum::<f64>();
     let legs = share(0.05, 0.36, &|r| {
-        r.len() >= 2 && r[1].area > 0.4 * r[0].area && r.get(2).is_none_or(|third| third.area < 0.7 * r[1].area)
+        r.len() >= 2
+            && r[1].area > 0.4 * r[0].area
+            && r.get(2).is_none_or(|third| third.area < 0.7 * r[1].area)
     });
     let trunk = share(0.50, 0.70, &|r| !r.is_empty() && r[0].area > 0.55 * area(r));
     let head = share(0.90, 0.98, &|r| !r.is_empty() && r[0].area > 0.75 * area(r));
