@@ -52,8 +52,8 @@ pub(super) fn correction(half: &Patch, field: &Field, m: &Resolved) -> Curve {
         (levels.bust, bust),
     ];
     let upper = [
-        (levels.bust + 0.35 * room, 0.995 * bust),
-        (levels.armpit - UNDERARM * h, 0.985 * bust),
+        (levels.bust + 0.35 * room, 0.998 * bust),
+        (levels.armpit - UNDERARM * h, 0.993 * bust),
     ];
     let heights: Vec<f64> = wanted.iter().chain(&upper).map(|w| w.0).collect();
     let now = girths(half, &heights);
