@@ -64,7 +64,9 @@ pub enum PatternError {
         faces: usize,
     },
     /// Several fans of faces that meet in one node only.
-    #[error("surface {patch:?}: node {node} joins parts that share no edge there; give each part its own node")]
+    #[error(
+        "surface {patch:?}: node {node} joins parts that share no edge there; give each part its own node"
+    )]
     PinchedNode {
         /// Name of the patch.
         patch: String,

@@ -46,6 +46,9 @@ pub fn make(input: &PatternInput, options: &PatternOptions) -> Result<Pattern, P
 ///
 /// # Errors
 /// As [`make`].
-pub fn flatten_mesh(mesh: &mesh_kernel::TriMesh, options: &FlattenMeshOptions) -> Result<Pattern, PatternError> {
+pub fn flatten_mesh(
+    mesh: &mesh_kernel::TriMesh,
+    options: &FlattenMeshOptions,
+) -> Result<Pattern, PatternError> {
     make(&input_of_mesh(mesh, options)?, &options.pattern)
 }

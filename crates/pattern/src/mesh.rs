@@ -18,6 +18,9 @@ pub struct FlattenMeshOptions {
     pub pattern: crate::PatternOptions,
 }
 
+/// A seam side's edge in the seam's direction: patch, local node at its start, local node at its end.
+type SideEdge = (u32, u32, u32);
+
 /// Half-edges `h = 3 f + c` of the whole mesh that border on the same welded edge.
 struct WeldedEdge {
     uses: Vec<u32>,
@@ -173,14 +176,16 @@ fn seams(
         .map(|mut e| {
             // An inner edge has two half-edges, and is one side.
             e.uses.dedup_by(|h, g| {
-                inner[*h as usize] && inner[*g as usize] && patch_of_face[*h as usize / 3] == patch_of_face[*g as usize / 3]
+                inner[*h as usize]
+                    && inner[*g as usize]
+                    && patch_of_face[*h as usize / 3] == patch_of_face[*g as usize / 3]
             });
             e
         })
         .filter(|e| e.uses.len() > 1)
         .collect();
-    // One direction of an edge: uses as (patch, local node at its start, local node at its end).
-    let directed = |e: usize, from: u32| -> Vec<(u32, u32, u32)> {
+    // The uses of an edge in one direction.
+    let directed = |e: usize, from: u32| -> Vec<SideEdge> {
         edges[e]
             .uses
             .iter()
@@ -199,7 +204,7 @@ fn seams(
         at[start..].iter().take_while(move |x| x.0 == v).map(|x| x.1)
     };
     // The next edge after `e`, which arrives at `v` with `sides`; its sides in the same order.
-    let follow = |e: usize, v: u32, sides: &[(u32, u32, u32)]| -> Option<(usize, Vec<(u32, u32, u32)>)> {
+    let follow = |e: usize, v: u32, sides: &[SideEdge]| -> Option<(usize, Vec<SideEdge>)> {
         let mut others = around(v).filter(|&g| g != e);
         let (g, None) = (others.next()?, others.next()) else { return None };
         let mut next_sides = directed(g, v);

@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use glam::DVec2;
 
-use super::lettering::{letter_height, lines, plain, plain_text};
+use super::lettering::{letter_height, plain, plain_text};
 use crate::{Pattern, Piece};
 
 /// Whose reading of the standard.
@@ -231,18 +231,21 @@ impl Writer {
                 self.polyline(layer::SEW_COPY, &sew.points(), true);
             }
         }
-        let height = letter_height(piece, &lines(piece, &options.sample_size));
-        let mut entries = vec![
+        let entries = [
             ("Piece Name", plain_text(&piece.label)),
             ("Size", plain_text(&options.sample_size)),
             ("Quantity", piece.quantity.to_string()),
             ("Annotation", if piece.fold.is_some() { "Cut on fold".to_owned() } else { String::new() }),
             ("Category", String::new()),
-        ];
-        entries.push(("Material", plain_text(&piece.material)));
-        for (i, (key, value)) in entries.iter().enumerate() {
-            let at = piece.text_at - DVec2::new(0.0, 1.5 * height * (i as f64 - 2.5));
-            self.lettering(at, height, &format!("{key}: {value}"));
+            ("Material", plain_text(&piece.material)),
+        ]
+        .map(|(key, value)| format!("{key}: {value}"));
+        let height = letter_height(piece, &entries);
+        let longest = entries.iter().map(String::len).max().unwrap_or(0) as f64;
+        for (i, entry) in entries.iter().enumerate() {
+            // Text starts at its insertion point: half the longest line left of the middle.
+            let shift = DVec2::new(-0.4 * height * longest, -1.5 * height * (i as f64 - 2.5));
+            self.lettering(piece.text_at + shift, height, entry);
         }
         self.text(0, "ENDBLK");
         self.number(8, layer::BOUNDARY.into());

@@ -18,7 +18,7 @@ pub(crate) fn lines(piece: &Piece, sample_size: &str) -> Vec<String> {
 
 /// Height of a piece's letters that leaves room around the text, in millimetres.
 pub(crate) fn letter_height(piece: &Piece, lines: &[String]) -> f64 {
-    let room = piece.cut.iter().chain([]).flat_map(|c| &c.points).map(|p| p.distance(piece.text_at));
+    let room = piece.cut.iter().flat_map(|c| &c.points).map(|p| p.distance(piece.text_at));
     let room = room.fold(f64::INFINITY, f64::min);
     let longest = lines.iter().map(|l| l.chars().count()).max().unwrap_or(1).max(4) as f64;
     // Helvetica is about half as wide as high.

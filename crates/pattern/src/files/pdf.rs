@@ -108,7 +108,9 @@ fn sheet(pattern: &Pattern, options: &PdfOptions, width: f64, round: impl Fn(f64
 fn legend(options: &PdfOptions, corner: DVec2) -> PieceDrawing {
     let square = |corner: DVec2, side: f64| Stroke {
         meaning: Meaning::Text,
-        points: [DVec2::ZERO, DVec2::X, DVec2::new(1.0, -1.0), DVec2::NEG_Y].map(|d| corner + d * side).to_vec(),
+        points: [DVec2::ZERO, DVec2::X, DVec2::new(1.0, -1.0), DVec2::NEG_Y]
+            .map(|d| corner + d * side)
+            .to_vec(),
         closed: true,
     };
     let second = corner + DVec2::new(60.0, 0.0);
@@ -251,7 +253,11 @@ fn tile_content(
             for d in [DVec2::new(4.0, 0.0), DVec2::new(0.0, 4.0)] {
                 line(&mut content, p - d, p + d);
             }
-            polyline(&mut content, &[DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y].map(|d| p + 2.0 * d), true);
+            polyline(
+                &mut content,
+                &[DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y].map(|d| p + 2.0 * d),
+                true,
+            );
         }
     }
     content.restore_state();
@@ -294,6 +300,11 @@ fn paint(content: &mut Content, sheet: &Sheet, [low, high]: [DVec2; 2]) {
             polyline(content, &stroke.points, stroke.closed);
         }
         for one in &drawing.letters {
+            // Letters reach to both sides of their middle, at most some way.
+            let reach = DVec2::new(0.5 * one.height * one.text.chars().count() as f64, 2.0 * one.height);
+            if (one.at + reach).cmplt(low).any() || (one.at - reach).cmpgt(high).any() {
+                continue;
+            }
             letters(content, one.at, one.height, &one.text, true);
         }
     }
@@ -346,7 +357,9 @@ fn letters(content: &mut Content, at: DVec2, height: f64, text: &str, centred: b
 /// Rough advance of Helvetica's letters, in ems.
 fn advance(byte: u8) -> f64 {
     match byte {
-        b'i' | b'j' | b'l' | b'I' | b' ' | b'.' | b',' | b':' | b';' | b'f' | b't' | b'(' | b')' | b'-' => 0.28,
+        b'i' | b'j' | b'l' | b'I' | b' ' | b'.' | b',' | b':' | b';' | b'f' | b't' | b'(' | b')' | b'-' => {
+            0.28
+        }
         b'm' | b'w' | b'M' | b'W' => 0.83,
         b'A'..=b'Z' => 0.68,
         _ => 0.55,

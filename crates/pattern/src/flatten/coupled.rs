@@ -24,11 +24,8 @@ pub(crate) fn merge(sheets: &[&Sheet], groups: &[Vec<EdgeOf>]) -> Result<Sheet, 
         first.push(merged.add(sheet));
     }
     let Merged { space, faces, rest, mut edges, sides, flat, pins, area } = merged;
-    let mut known: Vec<([u32; 2], u32)> = edges
-        .iter()
-        .enumerate()
-        .map(|(i, e)| ([e[0].min(e[1]), e[0].max(e[1])], i as u32))
-        .collect();
+    let mut known: Vec<([u32; 2], u32)> =
+        edges.iter().enumerate().map(|(i, e)| ([e[0].min(e[1]), e[0].max(e[1])], i as u32)).collect();
     known.sort_unstable();
     // All pairs of nodes that a hold couples; those that are no mesh edge become edges of the system.
     let mut wanted: Vec<[u32; 2]> = Vec::new();

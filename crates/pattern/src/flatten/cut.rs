@@ -53,7 +53,8 @@ pub(crate) fn open(
         }
         let space: Vec<DVec3> = classes.node_of.iter().map(|&v| positions[v as usize]).collect();
         let turn: Vec<f64> = loops.iter().map(|rim| turning(&open, &space, rim)).collect();
-        let outer = (0..loops.len()).max_by(|&a, &b| turn[a].total_cmp(&turn[b]).then(b.cmp(&a))).unwrap_or(0);
+        let outer =
+            (0..loops.len()).max_by(|&a, &b| turn[a].total_cmp(&turn[b]).then(b.cmp(&a))).unwrap_or(0);
         let must_cut = |i: usize| match policy {
             HolePolicy::Keep => false,
             HolePolicy::Cut => i != outer,

@@ -68,7 +68,6 @@ fn rescale(sheet: &mut Sheet) -> bool {
 /// Longest boundary loop on a circle, every other node in the middle of its neighbours. Other loops are filled with
 /// a fan about one more node, which keeps the theorem's condition.
 fn tutte(sheet: &mut Sheet) -> Result<(), NotDefinite> {
-    let n = sheet.space.len();
     let length = |rim: &Vec<u32>| -> f64 {
         (0..rim.len())
             .map(|i| sheet.space[rim[i] as usize].distance(sheet.space[rim[(i + 1) % rim.len()] as usize]))
@@ -124,8 +123,8 @@ fn tutte(sheet: &mut Sheet) -> Result<(), NotDefinite> {
     system.factorise()?;
     let mut out = vec![[0.0; 2]; space.len()];
     system.solve(&right, &mut out);
-    for v in 0..n {
-        sheet.flat[v] = DVec2::from_array(out[v]);
+    for (p, o) in sheet.flat.iter_mut().zip(&out) {
+        *p = DVec2::from_array(*o);
     }
     Ok(())
 }

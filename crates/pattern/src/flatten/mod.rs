@@ -47,7 +47,7 @@ pub(crate) struct FlatPatch {
 }
 
 /// A kept hole that costs more stretch than this is cut open after all.
-const POOR_STRETCH: f64 = 0.02;
+const POOR_STRETCH: f64 = 0.01;
 
 struct Work {
     before: Topology,
@@ -64,8 +64,11 @@ pub(crate) fn flatten(input: &PatternInput, options: &PatternOptions) -> Result<
     let checked: Vec<_> = input.patches.par_iter().map(Topology::of_patch).collect();
     let before = checked.into_iter().collect::<Result<Vec<_>, _>>()?;
     joined::check(input, &before)?;
-    let solved: Vec<_> =
-        before.into_par_iter().enumerate().map(|(p, topology)| flatten_one(input, options, p, topology)).collect();
+    let solved: Vec<_> = before
+        .into_par_iter()
+        .enumerate()
+        .map(|(p, topology)| flatten_one(input, options, p, topology))
+        .collect();
     let mut work = solved.into_iter().collect::<Result<Vec<Work>, _>>()?;
     let mut warnings = Vec::new();
 
@@ -76,7 +79,7 @@ pub(crate) fn flatten(input: &PatternInput, options: &PatternOptions) -> Result<
         joined::flat_seams(input, &before, &after, &paths)
     };
     if options.match_seams {
-        fit_seams(input, &mut work, &seams, &mut warnings)?;
+        fit_seams(input, &mut work, &seams, &mut warnings);
     }
     let patches: Vec<FlatPatch> =
         work.into_par_iter().enumerate().map(|(p, w)| finish(&input.patches[p].positions, w)).collect();
@@ -112,12 +115,14 @@ fn flatten_one(
     before: Topology,
 ) -> Result<Work, PatternError> {
     let patch = &input.patches[p];
-    let given: Vec<Vec<u32>> =
-        input.cuts.iter().filter(|c| c.patch == p).map(|c| c.nodes.clone()).collect();
+    let given: Vec<Vec<u32>> = input.cuts.iter().filter(|c| c.patch == p).map(|c| c.nodes.clone()).collect();
     let mut preferred = vec![false; before.twin.len()];
-    let features = input.lines.iter().filter(|l| l.patch == p).map(|l| &l.nodes).chain(
-        input.seams.iter().flat_map(|s| &s.sides).filter(|s| s.patch == p).map(|s| &s.nodes),
-    );
+    let features = input
+        .lines
+        .iter()
+        .filter(|l| l.patch == p)
+        .map(|l| &l.nodes)
+        .chain(input.seams.iter().flat_map(|s| &s.sides).filter(|s| s.patch == p).map(|s| &s.nodes));
     for pair in features.flat_map(|nodes| nodes.windows(2)) {
         for h in before.half_edges(pair[0], pair[1]) {
             preferred[h as usize] = true;
@@ -126,12 +131,12 @@ fn flatten_one(
     let mut policy = options.holes;
     loop {
         let open = cut::open(&patch.name, &before, &patch.positions, &given, &preferred, policy)?;
-        let space: Vec<DVec3> =
-            open.classes.node_of.iter().map(|&v| patch.positions[v as usize]).collect();
+        let space: Vec<DVec3> = open.classes.node_of.iter().map(|&v| patch.positions[v as usize]).collect();
+        let sewn = !open.cut_paths.is_empty() || input.seams.iter().flat_map(|s| &s.sides).any(|s| s.patch == p);
+        let stop = if sewn && options.match_seams { Stop::ROUGH } else { Stop::default() };
         let mut sheet = Sheet::new(&open.topology, &space).map_err(|_| unsolvable(&patch.name))?;
         initial::start(&mut sheet).map_err(|_| unsolvable(&patch.name))?;
-        let outcome =
-            newton::minimise(&mut sheet, Stop::default()).map_err(|_| unsolvable(&patch.name))?;
+        let outcome = newton::minimise(&mut sheet, stop).map_err(|_| unsolvable(&patch.name))?;
         if open.kept_holes {
             let (stretch, _) = stretches(&sheet);
             if stretch > POOR_STRETCH || overlap::crossings(&sheet.flat, &sheet.loops) > 0 {
@@ -145,12 +150,7 @@ fn flatten_one(
 
 /// Brings corresponding seam edges to equal lengths at the least total stretch: all pieces that are sewn together are
 /// solved as one, starting from their own best shapes.
-fn fit_seams(
-    input: &PatternInput,
-    work: &mut [Work],
-    seams: &[FlatSeam],
-    warnings: &mut Vec<String>,
-) -> Result<(), PatternError> {
+fn fit_seams(input: &PatternInput, work: &mut [Work], seams: &[FlatSeam], warnings: &mut Vec<String>) {
     let groups = {
         let after: Vec<&Topology> = work.iter().map(|w| &w.open.topology).collect();
         joined::equal_length_groups(seams, &after)
@@ -169,7 +169,8 @@ fn fit_seams(
         let root = sewn.root(group[0].0) as usize;
         if garment_of[root] == usize::MAX {
             garment_of[root] = garments.len();
-            let members: Vec<usize> = (0..work.len()).filter(|&p| sewn.root(p as u32) as usize == root).collect();
+            let members: Vec<usize> =
+                (0..work.len()).filter(|&p| sewn.root(p as u32) as usize == root).collect();
             members.iter().enumerate().for_each(|(i, &p)| place[p] = i);
             garments.push((members, Vec::new()));
         }
@@ -194,9 +195,17 @@ fn fit_seams(
         .collect::<Vec<Result<(Sheet, Outcome), sparse::NotDefinite>>>();
     for ((members, _), result) in garments.iter().zip(solved) {
         let names = || members.iter().map(|&p| input.patches[p].name.as_str()).collect::<Vec<_>>().join(", ");
-        let (merged, outcome) = result.map_err(|_| unsolvable(&names()))?;
-        let mut sheets: Vec<&mut Sheet> =
-            work.iter_mut().enumerate().filter(|(p, _)| members.contains(p)).map(|(_, w)| &mut w.sheet).collect();
+        let Ok((merged, outcome)) = result else {
+            // The free shapes are still sound; the seam checks will show by how much their sides differ.
+            warnings.push(format!("the seams of {} could not be brought to equal lengths", names()));
+            continue;
+        };
+        let mut sheets: Vec<&mut Sheet> = work
+            .iter_mut()
+            .enumerate()
+            .filter(|(p, _)| members.contains(p))
+            .map(|(_, w)| &mut w.sheet)
+            .collect();
         coupled::hand_back(&merged, &mut sheets);
         for &p in members {
             work[p].outcome.steps += outcome.steps;
@@ -210,7 +219,6 @@ fn fit_seams(
             ));
         }
     }
-    Ok(())
 }
 
 /// Area-weighted mean and maximum of |1 − σ|.

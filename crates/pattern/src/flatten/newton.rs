@@ -11,11 +11,16 @@ use super::{energy, sheet::Sheet, sparse::NotDefinite};
 /// When to stop.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stop {
-    /// Predicted decrease of energy per area.
+    /// Predicted decrease of energy per area of a last step with the projected Hessian; with the full one its root.
     pub(crate) decrease: f64,
     /// Largest relative length error of a held edge.
     pub(crate) hold: f64,
     pub(crate) steps: usize,
+}
+
+impl Stop {
+    /// Good enough as a start for the solve with seams.
+    pub(crate) const ROUGH: Stop = Stop { decrease: 1e-6, hold: 1e-6, steps: 200 };
 }
 
 impl Default for Stop {
@@ -61,7 +66,8 @@ pub(crate) fn minimise(sheet: &mut Sheet, stop: Stop) -> Result<Outcome, NotDefi
         if !promise.is_finite() {
             return Err(NotDefinite);
         }
-        let last = promise <= 2.0 * stop.decrease * sheet.area;
+        // With the full Hessian the error after this step is about the square of this.
+        let last = promise <= 2.0 * sheet.area * if near { stop.decrease.sqrt() * 0.1 } else { stop.decrease };
         let mut length = longest_step(sheet, &step).min(1.0);
         let mut accepted = false;
         for _ in 0..40 {

@@ -72,8 +72,7 @@ impl Sheet {
                 space.push(positions[v]);
             }
         }
-        let faces: Vec<[u32; 3]> =
-            open.faces.iter().map(|f| f.map(|v| compact[v as usize])).collect();
+        let faces: Vec<[u32; 3]> = open.faces.iter().map(|f| f.map(|v| compact[v as usize])).collect();
         let rest: Vec<RestTriangle> =
             faces.iter().map(|f| RestTriangle::new(f.map(|v| space[v as usize]))).collect();
         let area = rest.iter().map(|r| r.area).sum();

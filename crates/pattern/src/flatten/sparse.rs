@@ -95,8 +95,11 @@ impl BlockSystem {
         // The analysis reads the upper triangle, the numeric factorisation the lower one.
         let (upper_start, upper_rows) = transpose(&column_start, &rows);
         let structure = SymbolicSparseColMatRef::new_checked(2 * n, 2 * n, &upper_start, None, &upper_rows);
-        let threshold =
-            if n < 150 { SupernodalThreshold::FORCE_SIMPLICIAL } else { SupernodalThreshold::FORCE_SUPERNODAL };
+        let threshold = if n < 150 {
+            SupernodalThreshold::FORCE_SIMPLICIAL
+        } else {
+            SupernodalThreshold::FORCE_SUPERNODAL
+        };
         let symbolic = factorize_symbolic_cholesky(
             structure,
             Side::Upper,
@@ -104,9 +107,10 @@ impl BlockSystem {
             CholeskySymbolicParams { supernodal_flop_ratio_threshold: threshold, ..Default::default() },
         )
         .map_err(|_| NotDefinite)?;
-        let need = symbolic
-            .factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default())
-            .or(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq));
+        let need =
+            symbolic
+                .factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default())
+                .or(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq));
         Ok(Self {
             values: vec![0.0; rows.len()],
             factor: vec![0.0; symbolic.len_val()],

@@ -57,7 +57,8 @@ impl Topology {
                 });
             }
             let [a, b, c] = face.map(|v| patch.positions[v as usize]);
-            let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
+            let longest =
+                (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
             // Below this a triangle's own plane is lost in the rounding of its coordinates.
             let doubled = (b - a).cross(c - a).length();
             if doubled.partial_cmp(&(1e-10 * longest)) != Some(Ordering::Greater) {

@@ -164,8 +164,9 @@ fn finish(mut points: Vec<DVec2>, outer: bool, options: &PatternOptions) -> CutL
     }
     // Corners of the raw loop stay; between them only what the tolerance needs.
     let n = points.len();
-    let is_corner =
-        |i: usize| turn(points[(i + n - 1) % n], points[i], points[(i + 1) % n]).abs() > 0.5 * options.corner_angle;
+    let is_corner = |i: usize| {
+        turn(points[(i + n - 1) % n], points[i], points[(i + 1) % n]).abs() > 0.5 * options.corner_angle
+    };
     let start = (0..n).find(|&i| is_corner(i)).unwrap_or(0);
     let walked: Vec<DVec2> = (0..=n).map(|i| points[(start + i) % n]).collect();
     let corner: Vec<bool> = (0..=n).map(|i| is_corner((start + i) % n)).collect();
@@ -177,7 +178,8 @@ fn finish(mut points: Vec<DVec2>, outer: bool, options: &PatternOptions) -> CutL
     let corner = (0..m)
         .map(|i| {
             corner[kept[i]]
-                && turn(points[(i + m - 1) % m], points[i], points[(i + 1) % m]).abs() > 0.5 * options.corner_angle
+                && turn(points[(i + m - 1) % m], points[i], points[(i + 1) % m]).abs()
+                    > 0.5 * options.corner_angle
         })
         .collect();
     CutLoop { points, corner }

@@ -27,7 +27,11 @@ pub(crate) fn check(input: &PatternInput, options: &PatternOptions) -> Result<()
         if value.is_finite() && value >= low {
             return Ok(());
         }
-        let wanted = if low > 0.0 { format!("a number of {low} or more") } else { "a number, not negative".to_owned() };
+        let wanted = if low > 0.0 {
+            format!("a number of {low} or more")
+        } else {
+            "a number, not negative".to_owned()
+        };
         Err(PatternError::BadOption { what: what.to_owned(), wanted, value })
     };
     at_least("the corner angle", options.corner_angle, 1e-3)?;
@@ -88,7 +92,13 @@ fn stand_up(patch: &Patch, flat: &mut FlatPatch) {
     }
 }
 
-fn piece(input: &PatternInput, flat: &Flattened, p: usize, wanted: &[Wanted], options: &PatternOptions) -> Piece {
+fn piece(
+    input: &PatternInput,
+    flat: &Flattened,
+    p: usize,
+    wanted: &[Wanted],
+    options: &PatternOptions,
+) -> Piece {
     let patch = &input.patches[p];
     let one = &flat.patches[p];
     let edges = outline::boundary_edges(p, patch, one, &flat.seams);
@@ -100,15 +110,12 @@ fn piece(input: &PatternInput, flat: &Flattened, p: usize, wanted: &[Wanted], op
     let sew: Vec<_> = lines.into_iter().map(|l| l.outline).collect();
     let loops: Vec<Vec<DVec2>> = sew.iter().map(|o| o.points()).collect();
     let text_at = interior::deep_point(&loops);
-    let fold = sew
-        .iter()
-        .flat_map(|o| &o.chains)
-        .filter(|c| c.on_fold)
-        .map(|c| c.points.clone())
-        .reduce(|mut a, b| {
+    let fold = sew.iter().flat_map(|o| &o.chains).filter(|c| c.on_fold).map(|c| c.points.clone()).reduce(
+        |mut a, b| {
             a.extend(b.into_iter().skip(1));
             a
-        });
+        },
+    );
     let label = if patch.piece.label.is_empty() { patch.name.clone() } else { patch.piece.label.clone() };
     Piece {
         name: patch.name.clone(),
@@ -146,7 +153,11 @@ fn inner_lines(input: &PatternInput, flat: &Flattened, p: usize, options: &Patte
                         .map(|k| one.flat.uv[notches::flat_node(&flat.patches, side, k) as usize])
                         .collect();
                     let seam_ref = SeamRef { seam: s, side: k, reversed: false };
-                    lines.push(InnerLine { name: seam.name.clone(), seam: Some(seam_ref), points: thin(points) });
+                    lines.push(InnerLine {
+                        name: seam.name.clone(),
+                        seam: Some(seam_ref),
+                        points: thin(points),
+                    });
                 }
                 i += 1;
             }

@@ -5,7 +5,11 @@ use glam::DVec2;
 use super::outline::BoundaryEdge;
 use crate::{
     CutLoop, Drill, Mark, MarkKind, Notch, PatternInput, PatternOptions, SeamRef,
-    flatten::{Flattened, FlatPatch, joined::{FlatSeam, FlatSide}, topology::NONE},
+    flatten::{
+        FlatPatch, Flattened,
+        joined::{FlatSeam, FlatSide},
+        topology::NONE,
+    },
 };
 
 /// A notch or hole to be made at a flat node.
@@ -50,10 +54,11 @@ pub(crate) fn wanted(input: &PatternInput, flat: &Flattened) -> (Vec<Vec<Wanted>
     for mark in &input.marks {
         let places = places_on_seams(mark, flat);
         for &(s, k) in &places {
-            let (low, high) = flat.seams[s].sides.iter().map(|side| along(patches, side, k)).fold(
-                (f64::INFINITY, 0.0f64),
-                |(low, high), d| (low.min(d), high.max(d)),
-            );
+            let (low, high) = flat.seams[s]
+                .sides
+                .iter()
+                .map(|side| along(patches, side, k))
+                .fold((f64::INFINITY, 0.0f64), |(low, high), d| (low.min(d), high.max(d)));
             mismatch[s] = mismatch[s].max(high - low);
             if mark.kind == MarkKind::Drill {
                 continue;
@@ -146,7 +151,8 @@ pub(crate) fn place(
             .map(|e| e.allowance)
             .fold(0.0, f64::max);
         let on_cut = ray_hit(p, outward, cut, 4.0 * width + 1.0).unwrap_or(p + outward * width);
-        let depth = if width > 0.0 { options.notch_depth_mm.min((width - 1.0).max(0.4 * width)) } else { 2.0 };
+        let depth =
+            if width > 0.0 { options.notch_depth_mm.min((width - 1.0).max(0.4 * width)) } else { 2.0 };
         let across = outward.perp();
         let offsets: &[f64] = if w.kind == MarkKind::DoubleNotch { &[-3.0, 3.0] } else { &[0.0] };
         let slits = offsets

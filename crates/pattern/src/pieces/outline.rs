@@ -5,11 +5,7 @@ use glam::DVec2;
 use super::simplify::needed;
 use crate::{
     CornerStyle, EdgeChain, Outline, OutlineChain, Patch, PatternOptions, SeamRef,
-    flatten::{
-        FlatPatch,
-        joined::FlatSeam,
-        topology::NONE,
-    },
+    flatten::{FlatPatch, joined::FlatSeam, topology::NONE},
 };
 
 /// What is known about one boundary half-edge.
@@ -124,9 +120,8 @@ pub(crate) fn sewing_lines(
             let exact: Vec<DVec2> = nodes.iter().map(|&v| at(v)).collect();
             // A closed chain needs a point on its far side, or it would collapse.
             let middle = (to - from == n).then_some((to - from) / 2);
-            let stay = needed(&exact, options.line_tolerance_mm, |i| {
-                keep[nodes[i] as usize] || middle == Some(i)
-            });
+            let stay =
+                needed(&exact, options.line_tolerance_mm, |i| keep[nodes[i] as usize] || middle == Some(i));
             let Some(edge) = info(from) else { continue };
             corners.push(edge.corner);
             chains.push(OutlineChain {

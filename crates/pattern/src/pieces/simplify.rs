@@ -39,7 +39,8 @@ pub(crate) fn simplified(points: &[DVec2], tolerance: f64) -> Vec<DVec2> {
 /// Distance of a point to a segment.
 pub(crate) fn distance_to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
     let d = b - a;
-    let t = if d.length_squared() > 0.0 { ((p - a).dot(d) / d.length_squared()).clamp(0.0, 1.0) } else { 0.0 };
+    let t =
+        if d.length_squared() > 0.0 { ((p - a).dot(d) / d.length_squared()).clamp(0.0, 1.0) } else { 0.0 };
     p.distance(a + t * d)
 }
 
