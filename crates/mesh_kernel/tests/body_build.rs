@@ -1,5 +1,8 @@
 //! Building bodies: loops, chains, joints, radial order, welding, splitting.
 
+// A test that cannot go on fails.
+#![allow(clippy::unwrap_used)]
+
 use mesh_kernel::body::{
     Body, BuildError, ChainSpec, DirectedEdge, JointId, JointSpec, NodeId, Side, SurfaceId, SurfaceSpec,
 };
@@ -108,10 +111,8 @@ fn a_rolled_strip_meets_itself_and_carries_a_closed_ring() {
     let column = |i: usize| -> Vec<u32> { (0..=m).map(|j| (j * (n + 1) + i) as u32).collect() };
     let rim: Vec<u32> = (0..=n as u32).collect();
     let side = joint(vec![chain(0, &column(0)), chain(0, &column(n))]);
-    let ring = joint(vec![
-        chain(0, &rim),
-        ChainSpec { surface: 1, nodes: (0..n as u32).collect(), closed: true },
-    ]);
+    let ring =
+        joint(vec![chain(0, &rim), ChainSpec { surface: 1, nodes: (0..n as u32).collect(), closed: true }]);
     let mut body = Body::build(&[tube, collar], &[side, ring]).unwrap();
     for level in 0..3 {
         let nodes = body.weld().count;
@@ -143,8 +144,8 @@ fn split_numbers_are_as_documented() {
         assert_eq!(s.edges()[2 * e + 1], [m, b]);
     }
     for (f, corners) in old.faces().iter().enumerate() {
-        for i in 0..3 {
-            assert_eq!(s.faces()[4 * f + i][i], corners[i]);
+        for (i, corner) in corners.iter().enumerate() {
+            assert_eq!(s.faces()[4 * f + i][i], *corner);
         }
     }
     // Incidence as a fresh build would make it.
@@ -218,10 +219,19 @@ fn what_cannot_be_built_is_refused_with_the_reason() {
     let two = [ok.clone(), flap("b", DVec3::Y)];
     let join = |chains| Body::build(&two, &[joint(chains)]).unwrap_err();
     assert!(matches!(join(vec![chain(0, &[0, 1])]), BuildError::TooFew { .. }));
-    assert!(matches!(join(vec![chain(0, &[0, 1]), chain(5, &[0, 1])]), BuildError::NoSurface { surface: 5, .. }));
-    assert!(matches!(join(vec![chain(0, &[1, 3]), chain(1, &[0, 1])]), BuildError::NoEdge { nodes: [1, 3], .. }));
+    assert!(matches!(
+        join(vec![chain(0, &[0, 1]), chain(5, &[0, 1])]),
+        BuildError::NoSurface { surface: 5, .. }
+    ));
+    assert!(matches!(
+        join(vec![chain(0, &[1, 3]), chain(1, &[0, 1])]),
+        BuildError::NoEdge { nodes: [1, 3], .. }
+    ));
     assert!(matches!(join(vec![chain(0, &[0, 1, 2]), chain(1, &[0, 1])]), BuildError::Lengths { .. }));
-    assert!(matches!(join(vec![chain(0, &[0, 1]), chain(1, &[1, 0])]), BuildError::NodesApart { distance: 1.0, .. }));
+    assert!(matches!(
+        join(vec![chain(0, &[0, 1]), chain(1, &[1, 0])]),
+        BuildError::NodesApart { distance: 1.0, .. }
+    ));
     assert!(matches!(join(vec![chain(0, &[0, 1]), chain(0, &[0, 1])]), BuildError::EdgeTaken { .. }));
     let mixed = join(vec![chain(0, &[1, 0, 2]), chain(1, &[1, 0, 2])]);
     assert!(matches!(mixed, BuildError::MixedChain { node: 0, .. }), "{mixed}");

@@ -1,8 +1,11 @@
 //! Counts, identity and volumes on worked examples (Lipson & Shpitalni) and on the shared sheets.
 
+// A test that cannot go on fails.
+#![allow(clippy::unwrap_used)]
+
 use std::path::PathBuf;
 
-use mesh_kernel::body::{Body, Counts};
+use mesh_kernel::body::{Body, Counts, FaceId, FaceSide};
 use mesh_kernel::glam::DVec3;
 use mesh_kernel::{Group, TriMesh};
 
@@ -22,6 +25,7 @@ fn body(positions: &[[f64; 3]], facets: &[&[u32]]) -> Body {
 /// (components, cycles, voids), the same before and after a split, with the identity.
 fn shape(mut body: Body) -> (i64, i64, i64) {
     let before = body.counts();
+    assert_eq!(body.check(), []);
     assert!(before.identity_holds(), "{before}");
     body.split_all(None).unwrap();
     let Counts { c, ch, cc, .. } = body.counts();
@@ -46,10 +50,29 @@ const CUBE_FACETS: [&[u32]; 6] =
 #[test]
 fn extruded_y() {
     let y = body(
-        &[[0., 0., 0.], [0., 0., 1.], [0., -1., 0.], [0., -1., 1.], [1., 1., 0.], [1., 1., 1.], [-1., 1., 0.], [-1., 1., 1.]],
+        &[
+            [0., 0., 0.],
+            [0., 0., 1.],
+            [0., -1., 0.],
+            [0., -1., 1.],
+            [1., 1., 0.],
+            [1., 1., 1.],
+            [-1., 1., 0.],
+            [-1., 1., 1.],
+        ],
         &[&[0, 1, 3, 2], &[0, 1, 5, 4], &[0, 1, 7, 6]],
     );
     assert_eq!(y.free_edges().len(), 9);
+    // Three lines from one end of the joint to the other.
+    let (joint, _) = y.joints().next().unwrap();
+    let sectors = y.sectors(joint, 0);
+    assert!(
+        (sectors.iter().map(|s| s.angle).sum::<f64>() - std::f64::consts::TAU).abs() < 1e-12,
+        "{sectors:?}"
+    );
+    assert_eq!((sectors.len(), y.regions().regions().len(), y.alternates(joint)), (3, 1, false));
+    let lines = y.boundary_loops();
+    assert!(lines.len() == 3 && lines.iter().all(|l| !l.is_closed() && l.edges.len() == 3), "{lines:?}");
     assert_eq!(y.volume(), None);
     assert_eq!(y.counts().v, 8);
     assert_eq!(shape(y), (1, 0, 0));
@@ -59,6 +82,8 @@ fn extruded_y() {
 fn corner_of_three_facets() {
     let corner = body(&CUBE, &[CUBE_FACETS[0], CUBE_FACETS[2], CUBE_FACETS[5]]);
     assert_eq!((corner.counts().v, corner.free_edges().len()), (7, 6));
+    let rim = corner.boundary_loops();
+    assert!(rim.len() == 1 && rim[0].is_closed() && rim[0].edges.len() == 6, "{rim:?}");
     assert_eq!(shape(corner), (1, 0, 0));
 }
 
@@ -83,6 +108,11 @@ fn box_with_a_partition() {
         ],
     );
     assert_eq!((partitioned.counts().v, partitioned.free_edges().len()), (12, 0));
+    let regions = partitioned.regions();
+    let wall = partitioned.surface_named("f3").unwrap();
+    let sides = [FaceSide::Front, FaceSide::Back].map(|s| regions.region(wall, FaceId(0), s));
+    assert!(sides == [1, 2] || sides == [2, 1], "{sides:?}");
+    assert_eq!(regions.regions().len(), 3);
     let volumes = partitioned.void_volumes();
     assert!(volumes.len() == 2 && volumes.iter().all(|v| (v - 1.0).abs() < 1e-15), "{volumes:?}");
     assert!((partitioned.volume().unwrap() - 2.0).abs() < 1e-15);
@@ -155,6 +185,16 @@ fn nested_touching_and_separate_shells() {
     let mut facets = tetrahedron.to_vec();
     facets.extend(shifted.iter().map(Vec::as_slice));
     let nested = body(&positions, &facets);
+    // Outside, between the two, inside the inner one.
+    let regions = nested.regions();
+    let volumes: Vec<_> = regions.regions().iter().map(|r| r.volume).collect();
+    assert_eq!(volumes.len(), 3);
+    assert!(volumes[0].is_none() && (volumes[1].unwrap() - 511.0 / 6.0).abs() < 1e-12, "{volumes:?}");
+    assert!((volumes[2].unwrap() - 1.0 / 6.0).abs() < 1e-12, "{volumes:?}");
+    assert_eq!(regions.regions()[1].shells.len(), 2);
+    let inner = nested.surface_named("f5").unwrap();
+    assert_eq!(regions.region(inner, FaceId(0), FaceSide::Front), 1);
+    assert_eq!(regions.region(inner, FaceId(0), FaceSide::Back), 2);
     assert_eq!(shape(nested), (2, 0, 2));
     // The inner one turned round is a cavity.
     let turned: Vec<Vec<u32>> = shifted.iter().map(|f| f.iter().rev().copied().collect()).collect();
@@ -246,6 +286,7 @@ fn shared_sheets_have_the_counts_of_their_table() {
         let number = |key: &str| row[key].as_i64().unwrap();
         let counts = body.counts();
         assert!(counts.identity_holds(), "{name}: {counts}");
+        assert_eq!(body.check(), [], "{name}");
         assert_eq!(counts.v, number("vertices"), "{name}");
         assert_eq!(counts.e, number("edges"), "{name}");
         assert_eq!(counts.f, number("triangles"), "{name}");

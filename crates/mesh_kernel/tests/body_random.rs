@@ -1,7 +1,11 @@
 //! Random bodies with joints, random splits: what must hold holds after every step.
 
+// A test that cannot go on fails.
+#![allow(clippy::unwrap_used)]
+
 use mesh_kernel::body::{
-    AttributeEdge, AttributeNode, AttributeNodeId, Body, ChainSpec, EdgeId, FaceId, JointSpec, SurfaceId, SurfaceSpec,
+    AttributeEdge, AttributeNode, AttributeNodeId, Body, ChainSpec, EdgeId, FaceId, JointSpec, SurfaceId,
+    SurfaceSpec,
 };
 use mesh_kernel::glam::DVec3;
 use mesh_kernel::{Group, TriMesh};
@@ -47,7 +51,8 @@ fn lattice(seed: u64, cells: [usize; 3], density: f64, groups: usize) -> TriMesh
                 for axis in 0..3 {
                     let (u, w) = ((axis + 1) % 3, (axis + 2) % 3);
                     let at = [x, y, z];
-                    if at[u] + 1 >= [nx, ny, nz][u] || at[w] + 1 >= [nx, ny, nz][w] || random.unit() > density {
+                    if at[u] + 1 >= [nx, ny, nz][u] || at[w] + 1 >= [nx, ny, nz][w] || random.unit() > density
+                    {
                         continue;
                     }
                     let corner = |du: usize, dw: usize| {
@@ -98,7 +103,8 @@ fn fan(seed: u64, sheets: usize, rows: usize) -> Body {
     let mut k = 0;
     while k < sheets {
         let through = k + 1 < sheets && random.below(2) == 0;
-        let columns: Vec<DVec3> = if through { vec![outs[k], DVec3::ZERO, outs[k + 1]] } else { vec![DVec3::ZERO, outs[k]] };
+        let columns: Vec<DVec3> =
+            if through { vec![outs[k], DVec3::ZERO, outs[k + 1]] } else { vec![DVec3::ZERO, outs[k]] };
         let zero = usize::from(through);
         let width = columns.len();
         let mut spec = SurfaceSpec { name: format!("sheet {k}"), ..SurfaceSpec::default() };
@@ -124,7 +130,8 @@ fn fan(seed: u64, sheets: usize, rows: usize) -> Body {
         specs.push(spec);
         k += if through { 2 } else { 1 };
     }
-    let joints = if chains.len() > 1 { vec![JointSpec { name: Some("axis".into()), chains }] } else { Vec::new() };
+    let joints =
+        if chains.len() > 1 { vec![JointSpec { name: Some("axis".into()), chains }] } else { Vec::new() };
     Body::build(&specs, &joints).unwrap()
 }
 
@@ -149,7 +156,8 @@ fn tube(seed: u64, around: usize, rows: usize) -> Body {
     }
     let open = |surface, nodes: Vec<u32>| ChainSpec { surface, nodes, closed: false };
     let column = |k: usize| (0..=rows).map(|row| id(row, k)).collect::<Vec<u32>>();
-    let mut joints = vec![JointSpec { name: None, chains: vec![open(0, column(0)), open(0, column(around))] }];
+    let mut joints =
+        vec![JointSpec { name: None, chains: vec![open(0, column(0)), open(0, column(around))] }];
     let mut specs = vec![strip];
     for row in 0..=rows {
         if random.below(2) == 0 {
@@ -348,7 +356,8 @@ fn midpoints_given_are_taken_and_made_equal_on_joints() {
         .surfaces()
         .map(|(id, s)| {
             let middle = |&[a, b]: &[u32; 2]| {
-                (s.positions()[a as usize] + s.positions()[b as usize]) * 0.5 + DVec3::Z * 0.01 * f64::from(id.0)
+                (s.positions()[a as usize] + s.positions()[b as usize]) * 0.5
+                    + DVec3::Z * 0.01 * f64::from(id.0)
             };
             s.edges().iter().map(middle).collect()
         })

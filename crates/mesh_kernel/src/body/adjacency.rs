@@ -1,7 +1,7 @@
 //! Edges from faces, edges by their nodes, and the walk along a boundary.
 
 use super::ids::{DirectedEdge, EdgeId, FaceId, NONE};
-use super::surface::Surface;
+use super::surface::{NO_CHAIN, Surface};
 
 /// Finds edges by their two nodes: the edges of every lower-numbered node in a list.
 #[derive(Clone, Debug, Default)]
@@ -100,7 +100,7 @@ impl Surface {
         }
         edges.shrink_to_fit();
         edge_faces.shrink_to_fit();
-        self.edge_chain = vec![NONE; edges.len()];
+        self.edge_chain = vec![NO_CHAIN; edges.len()];
         self.edges = edges;
         self.edge_faces = edge_faces;
         self.face_edges = face_edges;

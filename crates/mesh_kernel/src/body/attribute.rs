@@ -58,7 +58,9 @@ pub enum AttributeError {
     #[error("the attribute edge names node {0}, which the surface does not have")]
     NoNode(AttributeNodeId),
     /// Two nodes in a row without a common face.
-    #[error("attribute nodes {0} and {1} follow each other but share no face: add nodes where the line crosses edges")]
+    #[error(
+        "attribute nodes {0} and {1} follow each other but share no face: add nodes where the line crosses edges"
+    )]
     Apart(AttributeNodeId, AttributeNodeId),
 }
 
@@ -155,8 +157,8 @@ impl Surface {
     /// The node at which an attribute node lies, if it is an end of its edge.
     pub(crate) fn at_node(&self, node: &AttributeNode) -> Option<u32> {
         match *node {
-            AttributeNode::OnEdge { edge, u } if u == 0.0 => Some(self.edges[edge.index()][0]),
-            AttributeNode::OnEdge { edge, u } if u == 1.0 => Some(self.edges[edge.index()][1]),
+            AttributeNode::OnEdge { edge, u: 0.0 } => Some(self.edges[edge.index()][0]),
+            AttributeNode::OnEdge { edge, u: 1.0 } => Some(self.edges[edge.index()][1]),
             _ => None,
         }
     }
@@ -188,7 +190,12 @@ impl Surface {
         }
         let (Some(p), Some(q)) = (self.at_node(a), self.at_node(b)) else { return None };
         let e = index.get_or_init(|| self.edge_index()).find(p, q)?;
-        Some(self.edge_faces[e.index()].into_iter().find(|&f| f != NONE).map_or(Carrier::Edge(e.0), Carrier::Face))
+        Some(
+            self.edge_faces[e.index()]
+                .into_iter()
+                .find(|&f| f != NONE)
+                .map_or(Carrier::Edge(e.0), Carrier::Face),
+        )
     }
 
     /// Areal coordinates of an attribute node in `face`, if it lies in it or on its boundary.

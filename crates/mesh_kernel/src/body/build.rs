@@ -8,7 +8,7 @@ use super::Body;
 use super::chain::{Chain, Loop};
 use super::ids::{ChainId, DirectedEdge, EdgeId, JointId, LoopId, NONE, NodeId, SurfaceId};
 use super::joint::{Joint, JointUse};
-use super::surface::Surface;
+use super::surface::{Surface, chain_slot};
 
 /// Nodes that a joint holds together may be given this far apart, in millimetres; they are then made equal. It covers
 /// rounding of a formula evaluated twice, nothing that a person could mean.
@@ -155,7 +155,9 @@ pub enum BuildError {
         distance: f64,
     },
     /// An edge in two joints, or twice in one.
-    #[error("joint {joint}: the edge of nodes {nodes:?} on surface `{surface}` lies on joint {other} already")]
+    #[error(
+        "joint {joint}: the edge of nodes {nodes:?} on surface `{surface}` lies on joint {other} already"
+    )]
     EdgeTaken {
         /// Joint.
         joint: JointLabel,
@@ -245,11 +247,8 @@ impl Body {
     /// Loops, chains, joints and radial orders for surfaces that have their edges.
     pub(crate) fn assemble(surfaces: Vec<Surface>, joints: Vec<RunJoint>) -> Result<Self, BuildError> {
         let mut body = Body { surfaces, joints: Vec::with_capacity(joints.len()) };
-        let labels: Vec<JointLabel> = joints
-            .iter()
-            .enumerate()
-            .map(|(index, j)| JointLabel { index, name: j.name.clone() })
-            .collect();
+        let labels: Vec<JointLabel> =
+            joints.iter().enumerate().map(|(index, j)| JointLabel { index, name: j.name.clone() }).collect();
         let cycles: Vec<_> = body.surfaces.iter().map(Surface::boundary_cycles).collect();
         let places: Vec<LoopPlaces> =
             body.surfaces.iter().zip(&cycles).map(|(s, c)| LoopPlaces::new(s.edges.len(), c)).collect();
@@ -437,7 +436,7 @@ fn place_run(
                 other: labels[other].clone(),
             });
         }
-        surface.edge_chain[d.edge().index()] = id.0;
+        surface.edge_chain[d.edge().index()] = chain_slot(id);
     }
     let mut edges = run.edges;
     let mut start = NodeId(run.start);
@@ -455,11 +454,11 @@ fn place_run(
 /// Cuts a boundary cycle into the chains of joints and, between them, free chains.
 fn make_loop(surface: &mut Surface, cycle: &[DirectedEdge]) {
     let id = LoopId(surface.loops.len() as u32);
-    let chain_at = |surface: &Surface, i: usize| surface.edge_chain[cycle[i].edge().index()];
+    let chain_at = |surface: &Surface, i: usize| surface.edge_chain(cycle[i].edge());
     // Start where a joint's chain starts, so that no chain is cut by the start of the cycle.
     let starts = |surface: &Surface, i: usize| {
         let c = chain_at(surface, i);
-        c != NONE && surface.chains[c as usize].edges[0] == cycle[i]
+        c.is_some_and(|c| surface.chain(c).edges[0] == cycle[i])
     };
     let begin = (0..cycle.len()).find(|&i| starts(surface, i)).unwrap_or(0);
     let mut chains = Vec::new();
@@ -467,21 +466,21 @@ fn make_loop(surface: &mut Surface, cycle: &[DirectedEdge]) {
     while i < cycle.len() {
         let at = (begin + i) % cycle.len();
         let c = chain_at(surface, at);
-        if c != NONE {
-            let chain = &mut surface.chains[c as usize];
+        if let Some(c) = c {
+            let chain = &mut surface.chains[c.index()];
             chain.on_loop = Some(id);
-            chains.push(ChainId(c));
+            chains.push(c);
             i += chain.edges.len();
             continue;
         }
         let new = ChainId(surface.chains.len() as u32);
         let mut edges = Vec::new();
-        while i < cycle.len() && chain_at(surface, (begin + i) % cycle.len()) == NONE {
+        while i < cycle.len() && chain_at(surface, (begin + i) % cycle.len()).is_none() {
             edges.push(cycle[(begin + i) % cycle.len()]);
             i += 1;
         }
         for d in &edges {
-            surface.edge_chain[d.edge().index()] = new.0;
+            surface.edge_chain[d.edge().index()] = chain_slot(new);
         }
         let start = surface.ends(edges[0])[0];
         surface.chains.push(Chain { start, edges, on_loop: Some(id), joint: None });

@@ -3,7 +3,6 @@
 use super::Body;
 use super::complex::Complex;
 use super::homology::ranks;
-use super::ids::{DirectedEdge, LoopId, SurfaceId};
 use super::shells::Shells;
 use super::surface::Surface;
 
@@ -44,15 +43,6 @@ impl std::fmt::Display for Counts {
     }
 }
 
-/// The boundary of the welded body: an edge with one face.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct FreeEdge {
-    /// Its surface.
-    pub surface: SurfaceId,
-    /// The edge, with its face on the left.
-    pub edge: DirectedEdge,
-}
-
 impl Body {
     /// Counts the body as one complex; see [`Counts`]. O(faces), and for bodies with very many patches what the
     /// elimination of their joints costs.
@@ -60,44 +50,14 @@ impl Body {
         counts_of(&Complex::new(self))
     }
 
-    /// Edges with exactly one face in the whole body, in order of surfaces and edges. O(faces).
-    pub fn free_edges(&self) -> Vec<FreeEdge> {
-        let mut free = Vec::new();
-        for (id, s) in self.surfaces() {
-            for l in 0..s.loops.len() as u32 {
-                for &c in s.loops[LoopId(l).index()].chains() {
-                    let chain = s.chain(c);
-                    for &edge in &chain.edges {
-                        // Partners without any face leave the edge free.
-                        let alone = chain.joint.is_none()
-                            || self.partners(id, edge.edge()).iter().all(|(t, d)| {
-                                self.surface(*t).edge_faces[d.edge().index()] == [super::ids::NONE; 2]
-                            });
-                        if alone {
-                            free.push(FreeEdge { surface: id, edge });
-                        }
-                    }
-                }
-            }
-        }
-        free
-    }
-
     /// Volume that every void encloses, in mm³, ordered by the first face that bounds it; empty where nothing is
     /// enclosed. A part that floats in a void is not taken off it. O(faces).
     pub fn void_volumes(&self) -> Vec<f64> {
         let shells = Shells::new(&Complex::new(self));
         let volumes = shells.volumes(self);
-        // Of the shells of connected sheets, the one that looks outside has the least volume.
-        let mut outside: Vec<Option<usize>> = vec![None; shells.sheets];
-        for (side, &shell) in shells.of_side.iter().enumerate() {
-            let sheet = shells.sheet_of_face[side / 2] as usize;
-            let shell = shell as usize;
-            if outside[sheet].is_none_or(|s| volumes[shell] < volumes[s]) {
-                outside[sheet] = Some(shell);
-            }
-        }
-        (0..shells.count).filter(|&s| !outside.contains(&Some(s))).map(|s| volumes[s]).collect()
+        let mut outside = vec![false; shells.count];
+        shells.outer(&volumes).into_iter().for_each(|s| outside[s] = true);
+        (0..shells.count).filter(|&s| !outside[s]).map(|s| volumes[s]).collect()
     }
 
     /// Enclosed volume, in mm³; `None` where an edge has one face only, or there is no face at all.

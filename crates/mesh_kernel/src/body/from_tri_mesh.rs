@@ -84,12 +84,17 @@ impl Body {
     /// O(faces).
     pub fn from_tri_mesh(mesh: &TriMesh) -> Result<Self, BuildError> {
         check_input(mesh)?;
+        if mesh.groups.len() < 2
+            && let Some(surface) = one_surface(mesh)
+        {
+            return Self::assemble(vec![surface], Vec::new());
+        }
         let groups = Groups::new(mesh);
         let edges = MeshEdges::new(mesh);
         let (uses, joint_edges) = edge_uses(&edges, &groups, mesh);
         // Corners of a face that are one node of the surface.
         let copies = Copies::new(mesh, &groups, &edges, &uses, &joint_edges);
-        let surfaces = make_surfaces(mesh, &groups, &copies, &edges, &uses)?;
+        let surfaces = make_surfaces(mesh, &groups, &copies, &edges, (&uses, &joint_edges))?;
         let mut joints = trace_joints(mesh, &groups, &edges, &uses, &surfaces);
         joints.extend(touching_nodes(mesh, &groups, &copies, &surfaces, &joints));
         Self::assemble(surfaces, joints)
@@ -119,6 +124,33 @@ fn check_input(mesh: &TriMesh) -> Result<(), BuildError> {
         return Err(BuildError::NotFinite { surface: surface_of(0), node: v as u32, position });
     }
     Ok(())
+}
+
+/// The mesh as one surface, its nodes in their order, if nothing in it calls for a joint. `None` where edges have more
+/// than two faces or faces are wound differently, or the one group leaves faces out.
+fn one_surface(mesh: &TriMesh) -> Option<Surface> {
+    let name = match &mesh.groups[..] {
+        [] => String::new(),
+        [group] if group.faces == (0..mesh.faces.len() as u32) => group.name.clone(),
+        _ => return None,
+    };
+    if mesh.faces.is_empty() {
+        return None;
+    }
+    let mut surface = Surface { name, faces: mesh.faces.clone(), ..Surface::default() };
+    let mut used = vec![false; mesh.positions.len()];
+    mesh.faces.iter().flatten().for_each(|&v| used[v as usize] = true);
+    if used.iter().all(|u| *u) {
+        surface.positions.clone_from(&mesh.positions);
+    } else {
+        let mut numbers = vec![NONE; mesh.positions.len()];
+        for v in (0..used.len()).filter(|&v| used[v]) {
+            numbers[v] = surface.positions.len() as u32;
+            surface.positions.push(mesh.positions[v]);
+        }
+        surface.faces.iter_mut().for_each(|f| *f = f.map(|v| numbers[v as usize]));
+    }
+    surface.build_edges(|_, _| false).is_ok().then_some(surface)
 }
 
 /// The surface of every face.
@@ -192,38 +224,60 @@ fn edge_uses(edges: &MeshEdges, groups: &Groups, mesh: &TriMesh) -> (Uses, Vec<b
     (uses, on_joint)
 }
 
-/// Which corners of faces are one node of their surface.
+/// Which corners of faces are one node of their surface: at nodes without joint edges all of a group; at nodes with, those
+/// connected through edges that stay whole.
 struct Copies {
-    /// Set of every corner `3f + i`.
+    /// The corner `3f + i` that stands for corner `3f + i`.
     set: Vec<u32>,
 }
 
 impl Copies {
     fn new(mesh: &TriMesh, groups: &Groups, edges: &MeshEdges, uses: &Uses, joint_edges: &[bool]) -> Self {
         let corners = mesh.faces.len() * 3;
-        let mut sets = UnionFind::new(corners);
-        let corner_at = |f: u32, v: u32| {
-            3 * f + mesh.faces[f as usize].iter().position(|&n| n == v).unwrap_or(0) as u32
+        let mut at_joint = vec![false; mesh.positions.len()];
+        for &e in uses.keys() {
+            edges.nodes[e as usize].iter().for_each(|&v| at_joint[v as usize] = true);
+        }
+        // Corners at joint nodes, in order, and their places.
+        let node = |c: usize| mesh.faces[c / 3][c % 3];
+        let group = |c: u32| groups.of_face[c as usize / 3];
+        let listed: Vec<u32> = (0..corners as u32).filter(|&c| at_joint[node(c as usize) as usize]).collect();
+        let mut place = vec![NONE; if listed.is_empty() { 0 } else { corners }];
+        for (k, &c) in listed.iter().enumerate() {
+            place[c as usize] = k as u32;
+        }
+        let mut sets = UnionFind::new(listed.len());
+        let corner_at =
+            |f: u32, v: u32| 3 * f + mesh.faces[f as usize].iter().position(|&n| n == v).unwrap_or(0) as u32;
+        let mut join = |s: u32, t: u32| {
+            for v in [node(s as usize), mesh.faces[s as usize / 3][(s as usize + 1) % 3]] {
+                if at_joint[v as usize] {
+                    let [p, q] = [s, t].map(|side| place[corner_at(side / 3, v) as usize]);
+                    sets.union(p, q);
+                }
+            }
         };
         // Through edges that stay whole.
-        for e in 0..edges.nodes.len() as u32 {
-            let [p, q] = edges.nodes[e as usize];
-            let mut join = |s: u32, t: u32| {
-                for v in [p, q] {
-                    sets.union(corner_at(s / 3, v), corner_at(t / 3, v));
+        let mut done = vec![false; edges.nodes.len()];
+        for &c in &listed {
+            let f = c / 3 * 3;
+            for side in [c, f + (c + 2) % 3] {
+                let e = edges.of_side[side as usize];
+                if std::mem::replace(&mut done[e as usize], true) {
+                    continue;
                 }
-            };
-            match uses.get(&e) {
-                None => {
-                    if let &[s, t] = edges.sides(e) {
-                        join(s, t);
+                match uses.get(&e) {
+                    None => {
+                        if let &[s, t] = edges.sides(e) {
+                            join(s, t);
+                        }
                     }
-                }
-                Some(list) => {
-                    for u in list.iter().filter(|u| u.inner) {
-                        for &t in edges.sides(e) {
-                            if t != u.side && groups.of_face[t as usize / 3] == u.group {
-                                join(u.side, t);
+                    Some(list) => {
+                        for u in list.iter().filter(|u| u.inner) {
+                            for &t in edges.sides(e) {
+                                if t != u.side && group(t) == u.group {
+                                    join(u.side, t);
+                                }
                             }
                         }
                     }
@@ -231,33 +285,21 @@ impl Copies {
             }
         }
         // Fans of one surface that meet at a node only stay one node, unless joints cut them apart there.
-        let mut cut = vec![false; corners];
-        for (s, &e) in edges.of_side.iter().enumerate() {
-            if joint_edges[e as usize] {
-                let f = s / 3 * 3;
-                for corner in [s, f + (s + 1) % 3] {
-                    let root = sets.find(corner as u32);
-                    cut[root as usize] = true;
-                }
+        let mut cut = vec![false; listed.len()];
+        for (k, &c) in listed.iter().enumerate() {
+            let f = c / 3 * 3;
+            if [c, f + (c + 2) % 3].iter().any(|&side| joint_edges[edges.of_side[side as usize] as usize]) {
+                let root = sets.find(k as u32);
+                cut[root as usize] = true;
             }
         }
         let mut first: BTreeMap<(u32, u32), u32> = BTreeMap::new();
-        let mut roots_at: Vec<u32> = vec![NONE; mesh.positions.len()];
-        for corner in 0..corners as u32 {
-            let root = sets.find(corner);
-            if root != corner {
+        for (k, &c) in listed.iter().enumerate() {
+            let root = sets.find(k as u32);
+            if root != k as u32 {
                 continue;
             }
-            let (f, v) = (corner / 3, mesh.faces[corner as usize / 3][corner as usize % 3]);
-            let there = roots_at[v as usize];
-            if there == NONE {
-                roots_at[v as usize] = root;
-                continue;
-            }
-            // Rare: several fans at the node.
-            let key = |c: u32| (groups.of_face[c as usize / 3], v);
-            let own = (groups.of_face[f as usize], v);
-            first.entry(key(there)).or_insert(there);
+            let own = (group(c), node(c as usize));
             match first.get(&own) {
                 None => {
                     first.insert(own, root);
@@ -272,7 +314,23 @@ impl Copies {
                 Some(_) => {}
             }
         }
-        Self { set: (0..corners as u32).map(|c| sets.find(c)).collect() }
+        // The first corner of a group at a node without joints stands for all.
+        let mut of_node = vec![NONE; mesh.positions.len()];
+        let mut others: BTreeMap<(u32, u32), u32> = BTreeMap::new();
+        let set = (0..corners as u32)
+            .map(|c| {
+                let v = node(c as usize);
+                if at_joint[v as usize] {
+                    return listed[sets.find(place[c as usize]) as usize];
+                }
+                let there = &mut of_node[v as usize];
+                if *there == NONE {
+                    *there = c;
+                }
+                if group(*there) == group(c) { *there } else { *others.entry((group(c), v)).or_insert(c) }
+            })
+            .collect();
+        Self { set }
     }
 }
 
@@ -282,7 +340,7 @@ fn make_surfaces(
     groups: &Groups,
     copies: &Copies,
     edges: &MeshEdges,
-    uses: &Uses,
+    (uses, joint_edges): (&Uses, &[bool]),
 ) -> Result<Vec<Surface>, BuildError> {
     let mut surfaces: Vec<Surface> =
         groups.names.iter().map(|n| Surface { name: n.clone(), ..Surface::default() }).collect();
@@ -306,7 +364,7 @@ fn make_surfaces(
         let faces = &face_of[g];
         let separate = |f: u32, i: usize| {
             let e = edges.of_side[3 * faces[f as usize] as usize + i];
-            uses.get(&e).is_some_and(|list| list.iter().any(|u| u.group == g as u32 && !u.inner))
+            joint_edges[e as usize] && uses[&e].iter().any(|u| u.group == g as u32 && !u.inner)
         };
         s.build_edges(separate).map_err(|c| BuildError::EdgeConflict {
             surface: groups.names[g].clone(),
@@ -404,7 +462,8 @@ fn trace_joints(
         steps.extend(ahead);
         let runs = (0..list.len())
             .map(|i| {
-                let mut run = Run { surface: list[i].group, start: 0, edges: Vec::with_capacity(steps.len()) };
+                let mut run =
+                    Run { surface: list[i].group, start: 0, edges: Vec::with_capacity(steps.len()) };
                 for (k, (_, v, uses)) in steps.iter().enumerate() {
                     let u = &uses[i];
                     let (f, side) = (u.side / 3, u.side as usize % 3);

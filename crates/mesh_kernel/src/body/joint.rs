@@ -111,6 +111,9 @@ impl Body {
             return Vec::new();
         };
         let k = if uses[own].reversed { chain.edges.len() - 1 - at } else { at };
-        (0..uses.len()).filter(|&i| i != own).map(|i| (uses[i].surface, self.joint_edge(joint, i, k))).collect()
+        (0..uses.len())
+            .filter(|&i| i != own)
+            .map(|i| (uses[i].surface, self.joint_edge(joint, i, k)))
+            .collect()
     }
 }

@@ -36,12 +36,14 @@ mod chain;
 mod check;
 mod complex;
 mod counts;
+mod free_boundary;
 mod from_tri_mesh;
 mod homology;
 mod ids;
 mod joint;
 mod radial;
 mod radial_order;
+mod regions;
 mod shells;
 mod split_all;
 mod split_face;
@@ -53,12 +55,14 @@ pub use attribute::{AttributeEdge, AttributeError, AttributeNode};
 pub use build::{BuildError, ChainSpec, JOINT_SNAP, JointLabel, JointSpec, SurfaceSpec};
 pub use chain::{Chain, Loop};
 pub use check::Defect;
-pub use counts::{Counts, FreeEdge};
+pub use counts::Counts;
+pub use free_boundary::{BoundaryLine, FreeEdge};
 pub use ids::{
     AttributeEdgeId, AttributeNodeId, ChainId, DirectedEdge, EdgeId, FaceId, JointId, LoopId, NONE, NodeId,
     SurfaceId,
 };
 pub use joint::{Joint, JointUse, Sheet, Side};
+pub use regions::{Crossing, FaceSide, Region, Regions, Sector};
 pub use split_all::{SplitError, SplitMap, SurfaceSplit};
 pub use split_face::{FaceSplit, SplitEdge, SplitFaceError};
 pub use surface::{Star, Surface};

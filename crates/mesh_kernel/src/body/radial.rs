@@ -109,7 +109,8 @@ impl Radial {
     /// Whether a cyclic order of sheets, given by their indices, goes round the axis once, clockwise. Degenerate sheets
     /// may stand anywhere.
     pub(crate) fn agrees(&self, order: &[u32]) -> bool {
-        let ranks: Vec<u32> = order.iter().filter_map(|&i| self.ranks.get(i as usize).copied().flatten()).collect();
+        let ranks: Vec<u32> =
+            order.iter().filter_map(|&i| self.ranks.get(i as usize).copied().flatten()).collect();
         let next = ranks.iter().cycle().skip(1);
         ranks.iter().zip(next).filter(|(a, b)| a > b).count() <= 1
     }

@@ -26,7 +26,12 @@ impl Body {
 
     /// The radial order that geometry gives at edge `k` to the sheets of [`Body::sheets_at`]; `None` where the edge or
     /// all its faces are degenerate.
-    pub(crate) fn geometric_order(&self, joint: JointId, k: usize, sheets: &[(Sheet, u32)]) -> Option<Radial> {
+    pub(crate) fn geometric_order(
+        &self,
+        joint: JointId,
+        k: usize,
+        sheets: &[(Sheet, u32)],
+    ) -> Option<Radial> {
         let axis = self.joint_edge(joint, 0, k);
         let surface = self.surface(self.joint(joint).uses.first()?.surface);
         let [a, b] = surface.ends(axis).map(|v| surface.positions[v.index()]);
@@ -92,6 +97,7 @@ impl Body {
             uses[rank[i] as usize] = *u;
         }
         j.uses = uses;
-        j.radial = order.iter().map(|s| Sheet { use_index: rank[s.use_index as usize], side: s.side }).collect();
+        j.radial =
+            order.iter().map(|s| Sheet { use_index: rank[s.use_index as usize], side: s.side }).collect();
     }
 }

@@ -53,6 +53,19 @@ impl Shells {
         self.count - self.sheets
     }
 
+    /// For every connected sheets the shell that looks outside: the one with the least volume.
+    pub(crate) fn outer(&self, volumes: &[f64]) -> Vec<usize> {
+        let mut outer: Vec<Option<usize>> = vec![None; self.sheets];
+        for (side, &shell) in self.of_side.iter().enumerate() {
+            let there = &mut outer[self.sheet_of_face[side / 2] as usize];
+            let shell = shell as usize;
+            if there.is_none_or(|s| volumes[shell] < volumes[s]) {
+                *there = Some(shell);
+            }
+        }
+        outer.into_iter().flatten().collect()
+    }
+
     /// Volume that each shell encloses, in mm³: positive for voids, negative for the shell that looks outside.
     pub(crate) fn volumes(&self, body: &Body) -> Vec<f64> {
         let mut volumes = vec![0.0; self.count];

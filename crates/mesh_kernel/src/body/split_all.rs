@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::Body;
 use super::carry::Piece;
-use super::ids::{DirectedEdge, EdgeId, NONE, SurfaceId};
-use super::surface::Surface;
+use super::ids::{ChainId, DirectedEdge, EdgeId, NONE, SurfaceId};
+use super::surface::{NO_CHAIN, Surface, chain_slot};
 
 /// Why a body was not split.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -115,8 +115,7 @@ const CHILDREN: [[[f64; 3]; 3]; 4] = [
 
 fn split_surface(s: &mut Surface, midpoints: Option<&[DVec3]>) -> SurfaceSplit {
     let (nodes, edges, faces) = (s.positions.len(), s.edges.len(), s.faces.len());
-    let split =
-        SurfaceSplit { old_nodes: nodes as u32, old_edges: edges as u32, old_faces: faces as u32 };
+    let split = SurfaceSplit { old_nodes: nodes as u32, old_edges: edges as u32, old_faces: faces as u32 };
     if !s.attribute_nodes.is_empty() {
         carry_attributes(s, &split);
     }
@@ -155,7 +154,13 @@ fn split_surface(s: &mut Surface, midpoints: Option<&[DVec3]>) -> SurfaceSplit {
                 return [NONE; 2];
             }
             let [p, q, _] = s.face_edges[f as usize];
-            let i = if p == e as u32 { 0 } else if q == e as u32 { 1 } else { 2 };
+            let i = if p == e as u32 {
+                0
+            } else if q == e as u32 {
+                1
+            } else {
+                2
+            };
             [4 * f + i, 4 * f + if i == 2 { 0 } else { i + 1 }]
         };
         let ([left_a, left_b], [right_b, right_a]) = (side(left), side(right));
@@ -181,7 +186,7 @@ fn split_surface(s: &mut Surface, midpoints: Option<&[DVec3]>) -> SurfaceSplit {
         edge_faces.extend_from_slice(&[[4 * f, centre], [4 * f + 1, centre], [4 * f + 2, centre]]);
     }
 
-    let mut edge_chain = vec![NONE; new_edges.len()];
+    let mut edge_chain = vec![NO_CHAIN; new_edges.len()];
     for (c, chain) in s.chains.iter_mut().enumerate() {
         let mut halves = Vec::with_capacity(2 * chain.edges.len());
         for d in &chain.edges {
@@ -189,7 +194,7 @@ fn split_surface(s: &mut Surface, midpoints: Option<&[DVec3]>) -> SurfaceSplit {
             let e = d.edge().0;
             for half in [2 * e + back, 2 * e + 1 - back] {
                 halves.push(DirectedEdge::new(EdgeId(half), d.is_reversed()));
-                edge_chain[half as usize] = c as u32;
+                edge_chain[half as usize] = chain_slot(ChainId(c as u32));
             }
         }
         chain.edges = halves;

@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::Body;
 use super::carry::Piece;
-use super::ids::{DirectedEdge, EdgeId, FaceId, NONE, SurfaceId};
-use super::surface::Surface;
+use super::ids::{ChainId, DirectedEdge, EdgeId, FaceId, NONE, SurfaceId};
+use super::surface::{NO_CHAIN, Surface};
 
 /// Why a face was not split.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -75,7 +75,13 @@ impl Cutting {
             },
             2 => {
                 // Sides i and i + 1 meet in corner i + 1, which is cut off.
-                let i = if !split[2] { 0 } else if !split[0] { 1 } else { 2 };
+                let i = if !split[2] {
+                    0
+                } else if !split[0] {
+                    1
+                } else {
+                    2
+                };
                 let (m, n) = (middle(i), middle(i + 1));
                 let (a, c) = (at(i), at(i + 2));
                 let corner = [m, at(i + 1), n];
@@ -139,7 +145,12 @@ impl Body {
             for (k, &e) in plan.edges.iter().enumerate() {
                 let k = k as u32;
                 let edge = EdgeId(e);
-                result.edges.push(SplitEdge { surface: *t, edge, second: EdgeId(second + k), node: node + k });
+                result.edges.push(SplitEdge {
+                    surface: *t,
+                    edge,
+                    second: EdgeId(second + k),
+                    node: node + k,
+                });
                 if *t == surface
                     && let Some(i) = sides.iter().position(|&x| x == e)
                 {
@@ -202,7 +213,8 @@ impl Plan {
             }
         }
         // Points of every face to be cut, and its sides as halves or whole, before edges change.
-        let frames: Vec<Frame> = self.faces.keys().map(|&f| self.frame(s, f, first_node, first_half)).collect();
+        let frames: Vec<Frame> =
+            self.faces.keys().map(|&f| self.frame(s, f, first_node, first_half)).collect();
         for (k, &e) in self.edges.iter().enumerate() {
             let m = first_node + k as u32;
             let [a, b] = s.edges[e as usize];
@@ -219,7 +231,8 @@ impl Plan {
 
     fn frame(&self, s: &Surface, f: u32, first_node: u32, first_half: u32) -> Frame {
         let corners = s.faces[f as usize];
-        let mut frame = Frame { nodes: [corners[0], corners[1], corners[2], NONE, NONE, NONE], sides: [[NONE; 2]; 3] };
+        let mut frame =
+            Frame { nodes: [corners[0], corners[1], corners[2], NONE, NONE, NONE], sides: [[NONE; 2]; 3] };
         for (i, &e) in s.face_edges[f as usize].iter().enumerate() {
             frame.sides[i] = match self.place(e) {
                 Some(k) => {
@@ -234,10 +247,9 @@ impl Plan {
     }
 
     fn lengthen_chains(&self, s: &mut Surface, first_half: u32) {
-        let chains: BTreeSet<u32> =
-            self.edges.iter().map(|&e| s.edge_chain[e as usize]).filter(|&c| c != NONE).collect();
+        let chains: BTreeSet<ChainId> = self.edges.iter().filter_map(|&e| s.edge_chain(EdgeId(e))).collect();
         for c in chains {
-            let old = std::mem::take(&mut s.chains[c as usize].edges);
+            let old = std::mem::take(&mut s.chains[c.index()].edges);
             let mut edges = Vec::with_capacity(old.len() + self.edges.len());
             for d in old {
                 match self.place(d.edge().0) {
@@ -248,7 +260,7 @@ impl Plan {
                     }
                 }
             }
-            s.chains[c as usize].edges = edges;
+            s.chains[c.index()].edges = edges;
         }
     }
 }
@@ -283,7 +295,7 @@ impl Cutting {
         for cut in &self.cuts {
             s.edges.push(cut.map(|p| frame.nodes[p as usize]));
             s.edge_faces.push([NONE; 2]);
-            s.edge_chain.push(NONE);
+            s.edge_chain.push(NO_CHAIN);
         }
         for (k, child) in self.children.iter().enumerate() {
             let face = if k == 0 { f } else { faces + k as u32 - 1 };

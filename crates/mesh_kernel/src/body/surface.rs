@@ -5,7 +5,15 @@ use glam::{DVec2, DVec3};
 use super::adjacency::EdgeIndex;
 use super::attribute::{AttributeEdge, AttributeNode};
 use super::chain::{Chain, Loop};
-use super::ids::{ChainId, DirectedEdge, EdgeId, FaceId, LoopId, NONE, NodeId};
+use super::ids::{ChainId, DirectedEdge, EdgeId, FaceId, LoopId, NodeId};
+
+/// Entry of [`Surface::edge_chain`] for an edge on no chain.
+pub(crate) const NO_CHAIN: u32 = 0;
+
+/// Entry of [`Surface::edge_chain`] for an edge on a chain.
+pub(crate) fn chain_slot(chain: ChainId) -> u32 {
+    chain.0 + 1
+}
 
 /// A triangle patch (MESHSURFACE), in which an edge has at most two faces, wound alike.
 ///
@@ -23,6 +31,8 @@ pub struct Surface {
     pub(crate) planar: Vec<DVec2>,
     pub(crate) edges: Vec<[u32; 2]>,
     pub(crate) edge_faces: Vec<[u32; 2]>,
+    /// The chain of every edge as [`chain_slot`] writes it. Few edges have one, and memory of zeros costs nothing
+    /// until it is written.
     pub(crate) edge_chain: Vec<u32>,
     pub(crate) faces: Vec<[u32; 3]>,
     pub(crate) face_edges: Vec<[u32; 3]>,
@@ -92,7 +102,7 @@ impl Surface {
         &self.edges
     }
 
-    /// Left and right face of every edge, [`NONE`] where there is none.
+    /// Left and right face of every edge, [`super::NONE`] where there is none.
     pub fn edge_faces(&self) -> &[[u32; 2]] {
         &self.edge_faces
     }
@@ -127,8 +137,7 @@ impl Surface {
     /// The chain that an edge lies on.
     #[inline]
     pub fn edge_chain(&self, edge: EdgeId) -> Option<ChainId> {
-        let c = self.edge_chain[edge.index()];
-        (c != NONE).then_some(ChainId(c))
+        self.edge_chain[edge.index()].checked_sub(1).map(ChainId)
     }
 
     /// Start and end of a directed edge.

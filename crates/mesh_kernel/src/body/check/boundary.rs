@@ -19,7 +19,13 @@ fn chains(id: SurfaceId, s: &Surface, defects: &mut Vec<Defect>) {
         for (at, &d) in chain.edges.iter().enumerate() {
             let [start, end] = s.ends(d);
             if start != expected {
-                defects.push(Defect::ChainBroken { surface: id, chain: chain_id, at, expected, found: start });
+                defects.push(Defect::ChainBroken {
+                    surface: id,
+                    chain: chain_id,
+                    at,
+                    expected,
+                    found: start,
+                });
             }
             expected = end;
             found.push((d.edge(), chain_id));
@@ -35,25 +41,32 @@ fn chains(id: SurfaceId, s: &Surface, defects: &mut Vec<Defect>) {
             if !fits {
                 let faces = s.edge_faces[d.edge().index()];
                 let place = if chain.on_loop.is_some() { "a loop" } else { "the inside" };
-                defects.push(Defect::ChainPlace { surface: id, chain: chain_id, edge: d.edge(), faces, place });
+                defects.push(Defect::ChainPlace {
+                    surface: id,
+                    chain: chain_id,
+                    edge: d.edge(),
+                    faces,
+                    place,
+                });
             }
         }
     }
     found.sort_unstable();
     let mut rest = &found[..];
-    for (e, &c) in s.edge_chain.iter().enumerate() {
-        let edge = EdgeId(e as u32);
+    for e in 0..s.edges.len() as u32 {
+        let edge = EdgeId(e);
         let n = rest.iter().take_while(|(x, _)| *x == edge).count();
         let (own, others) = rest.split_at(n);
         rest = others;
+        let recorded = s.edge_chain(edge);
         let fits = match own {
-            [] => c == NONE,
-            [(_, only)] => only.0 == c,
+            [] => recorded.is_none(),
+            [(_, only)] => recorded == Some(*only),
             _ => false,
         };
         if !fits {
             let found = own.iter().map(|(_, c)| *c).collect();
-            defects.push(Defect::EdgeChain { surface: id, edge, recorded: s.edge_chain(edge), found });
+            defects.push(Defect::EdgeChain { surface: id, edge, recorded, found });
         }
     }
 }

@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use crate::body::{
-    AttributeEdgeId, AttributeNodeId, ChainId, Counts, EdgeId, FaceId, JointId, LoopId, NodeId, Sheet, SurfaceId,
+    AttributeEdgeId, AttributeNodeId, ChainId, Counts, EdgeId, FaceId, JointId, LoopId, NodeId, Sheet,
+    SurfaceId,
 };
 
 /// A broken rule. [`std::fmt::Display`] says it in words; [`Defect::code`] names its kind.
@@ -54,7 +55,9 @@ pub enum Defect {
         nodes: [u32; 3],
     },
     /// Side and corners of a face disagree.
-    #[error("surface {surface}: side {side} of face {face} is edge {edge} {edge_nodes:?}, but joins corners {corners:?}")]
+    #[error(
+        "surface {surface}: side {side} of face {face} is edge {edge} {edge_nodes:?}, but joins corners {corners:?}"
+    )]
     SideNodes {
         /// Surface.
         surface: SurfaceId,
@@ -94,7 +97,9 @@ pub enum Defect {
         sides: [u32; 3],
     },
     /// A face runs over an edge in the direction of its other side: it is wound against its neighbour.
-    #[error("surface {surface}: face {face} lies on the wrong side of edge {edge}: it is wound against its neighbours")]
+    #[error(
+        "surface {surface}: face {face} lies on the wrong side of edge {edge}: it is wound against its neighbours"
+    )]
     Orientation {
         /// Surface.
         surface: SurfaceId,
@@ -114,7 +119,9 @@ pub enum Defect {
         nodes: [u32; 2],
     },
     /// Edges of a chain do not follow each other.
-    #[error("surface {surface}: edge {at} of chain {chain} starts at node {found}, the chain has come to node {expected}")]
+    #[error(
+        "surface {surface}: edge {at} of chain {chain} starts at node {found}, the chain has come to node {expected}"
+    )]
     ChainBroken {
         /// Surface.
         surface: SurfaceId,
@@ -140,7 +147,9 @@ pub enum Defect {
         found: Vec<ChainId>,
     },
     /// A chain on a loop has an edge that is no boundary with the face on the left, or one on no loop has a boundary edge.
-    #[error("surface {surface}: edge {edge} of chain {chain} has faces {faces:?} (left, right), which does not fit {place}")]
+    #[error(
+        "surface {surface}: edge {edge} of chain {chain} has faces {faces:?} (left, right), which does not fit {place}"
+    )]
     ChainPlace {
         /// Surface.
         surface: SurfaceId,
@@ -154,7 +163,9 @@ pub enum Defect {
         place: &'static str,
     },
     /// A loop does not close, or leaps from one boundary to another.
-    #[error("surface {surface}: loop {cycle} goes from edge {from} to edge {to}, but the boundary goes on to {expected:?}")]
+    #[error(
+        "surface {surface}: loop {cycle} goes from edge {from} to edge {to}, but the boundary goes on to {expected:?}"
+    )]
     LoopOpen {
         /// Surface.
         surface: SurfaceId,
@@ -248,7 +259,9 @@ pub enum Defect {
         found: Vec<Sheet>,
     },
     /// The stored radial order is not the one that geometry has.
-    #[error("joint {joint}: on {edges} of its edges, first {at}, the sheets stand as {geometric:?}, stored is {stored:?}")]
+    #[error(
+        "joint {joint}: on {edges} of its edges, first {at}, the sheets stand as {geometric:?}, stored is {stored:?}"
+    )]
     RadialOrder {
         /// Joint.
         joint: JointId,
@@ -262,7 +275,9 @@ pub enum Defect {
         geometric: Vec<Sheet>,
     },
     /// A parameter of an attribute node is out of range.
-    #[error("surface {surface}: attribute node {node} has parameters {parameters:?}: 0 to 1, areal coordinates with sum 1")]
+    #[error(
+        "surface {surface}: attribute node {node} has parameters {parameters:?}: 0 to 1, areal coordinates with sum 1"
+    )]
     AttributeRange {
         /// Surface.
         surface: SurfaceId,

@@ -2,7 +2,7 @@
 
 use super::Defect;
 use crate::body::attribute::AttributeNode;
-use crate::body::{Body, NONE, Surface, SurfaceId};
+use crate::body::{Body, EdgeId, NONE, Surface, SurfaceId};
 
 pub(super) fn check(body: &Body, defects: &mut Vec<Defect>) {
     for (id, s) in body.surfaces() {
@@ -37,7 +37,13 @@ fn lengths(id: SurfaceId, s: &Surface, defects: &mut Vec<Defect>) {
     rule("edges of faces", s.face_edges.len(), faces);
 }
 
-fn named(of: impl Fn() -> String, what: &'static str, id: u32, limit: usize, defects: &mut Vec<Defect>) -> bool {
+fn named(
+    of: impl Fn() -> String,
+    what: &'static str,
+    id: u32,
+    limit: usize,
+    defects: &mut Vec<Defect>,
+) -> bool {
     let known = (id as usize) < limit;
     if !known {
         defects.push(Defect::UnknownId { of: of(), what, id, limit });
@@ -57,9 +63,9 @@ fn surface_ids(body: &Body, id: SurfaceId, s: &Surface, defects: &mut Vec<Defect
             named(|| format!("surface {id}: edge {e}"), "face", f, faces, defects);
         }
     }
-    for (e, &c) in s.edge_chain.iter().enumerate() {
-        if c != NONE {
-            named(|| format!("surface {id}: edge {e}"), "chain", c, s.chains.len(), defects);
+    for e in 0..s.edge_chain.len() as u32 {
+        if let Some(c) = s.edge_chain(EdgeId(e)) {
+            named(|| format!("surface {id}: edge {e}"), "chain", c.0, s.chains.len(), defects);
         }
     }
     for (f, corners) in s.faces.iter().enumerate() {

@@ -35,7 +35,12 @@ fn membership(body: &Body, defects: &mut Vec<Defect>) {
         for (c, (chain, found)) in s.chains.iter().zip(found).enumerate() {
             if found.as_slice() != chain.joint.as_slice() {
                 let chain_id = ChainId(c as u32);
-                defects.push(Defect::ChainJoint { surface: id, chain: chain_id, recorded: chain.joint, found });
+                defects.push(Defect::ChainJoint {
+                    surface: id,
+                    chain: chain_id,
+                    recorded: chain.joint,
+                    found,
+                });
             }
         }
     }
@@ -71,7 +76,9 @@ pub(super) fn check_coincidence(body: &Body, defects: &mut Vec<Defect>) {
                 defects.push(Defect::JointDirection { joint: id, use_index });
                 continue;
             }
-            for (at, (&a, &b)) in first.iter().zip(&own).enumerate().skip(at).filter(|(_, (a, b))| apart(**a, **b)) {
+            for (at, (&a, &b)) in
+                first.iter().zip(&own).enumerate().skip(at).filter(|(_, (a, b))| apart(**a, **b))
+            {
                 let distance = position(0, a).distance(position(use_index, b));
                 defects.push(Defect::JointApart { joint: id, use_index, at, node: NodeId(b), distance });
             }
@@ -92,11 +99,18 @@ pub(super) fn check_radial_order(body: &Body, defects: &mut Vec<Defect>) {
             let stored: Vec<u32> = joint.radial.iter().filter_map(index).collect();
             if !radial.agrees(&stored) {
                 edges += 1;
-                first.get_or_insert_with(|| (k, radial.order.iter().map(|&i| sheets[i as usize].0).collect()));
+                first
+                    .get_or_insert_with(|| (k, radial.order.iter().map(|&i| sheets[i as usize].0).collect()));
             }
         }
         if let Some((at, geometric)) = first {
-            defects.push(Defect::RadialOrder { joint: id, at, edges, stored: joint.radial.clone(), geometric });
+            defects.push(Defect::RadialOrder {
+                joint: id,
+                at,
+                edges,
+                stored: joint.radial.clone(),
+                geometric,
+            });
         }
     }
 }

@@ -3,9 +3,10 @@
 use glam::{DVec2, DVec3};
 
 use super::Defect;
+use crate::body::surface::{NO_CHAIN, chain_slot};
 use crate::body::{
-    AttributeEdge, AttributeNode, AttributeNodeId, Body, ChainId, ChainSpec, DirectedEdge, EdgeId, FaceId, JointId,
-    JointSpec, LoopId, NONE, NodeId, SurfaceId, SurfaceSpec,
+    AttributeEdge, AttributeNode, AttributeNodeId, Body, ChainId, ChainSpec, DirectedEdge, EdgeId, FaceId,
+    JointId, JointSpec, LoopId, NONE, NodeId, SurfaceId, SurfaceSpec,
 };
 
 /// Three flaps of two faces on one joint, split once, with an attribute line on the first.
@@ -80,7 +81,7 @@ fn incidence_and_winding() {
         let s = &mut b.surfaces[0];
         s.edges.push(s.edges[0]);
         s.edge_faces.push([NONE; 2]);
-        s.edge_chain.push(NONE);
+        s.edge_chain.push(NO_CHAIN);
     });
 }
 
@@ -88,7 +89,7 @@ fn incidence_and_winding() {
 fn chains_and_loops() {
     finds("chain_broken", |b| b.surfaces[0].chains[0].edges.swap(0, 1));
     finds("chain_broken", |b| b.surfaces[0].chains[0].start = NodeId(2));
-    finds("edge_chain", |b| b.surfaces[0].edge_chain[0] = 1);
+    finds("edge_chain", |b| b.surfaces[0].edge_chain[0] = chain_slot(ChainId(1)));
     finds("edge_chain", |b| {
         let d = b.surfaces[0].chains[0].edges[0];
         b.surfaces[0].chains[1].edges.push(d);
@@ -104,7 +105,7 @@ fn chains_and_loops() {
         s.loops.clear();
         s.chains.truncate(1);
         s.chains[0].on_loop = None;
-        s.edge_chain.iter_mut().filter(|c| **c == 1).for_each(|c| *c = NONE);
+        s.edge_chain.iter_mut().filter(|c| **c == chain_slot(ChainId(1))).for_each(|c| *c = NO_CHAIN);
     });
 }
 
@@ -162,7 +163,7 @@ fn geometry() {
         let n = s.positions.len() as u32;
         s.edges.push([n - 2, n - 1]);
         s.edge_faces.push([NONE; 2]);
-        s.edge_chain.push(NONE);
+        s.edge_chain.push(NO_CHAIN);
     });
 }
 
