@@ -1,0 +1,91 @@
+//! Wrong words are refused with 2 and told what is wrong; right ones are explained.
+
+use crate::call::{Folder, toile, word};
+use crate::fixtures::{dress, form};
+
+/// All commands.
+const COMMANDS: [&str; 8] = ["regenerate", "batch", "features", "form", "check", "info", "flatten", "render"];
+
+#[test]
+fn help_explains_every_command() {
+    let help = toile(&["help"]).succeeded().stdout;
+    for command in COMMANDS {
+        assert!(help.contains(command), "{command} is missing:\n{help}");
+        let one = toile(&[command, "--help"]).succeeded().stdout;
+        assert!(one.contains("Usage: toile") && one.contains("Example"), "{command}:\n{one}");
+    }
+    let version = toile(&["--version"]).succeeded().stdout;
+    assert!(version.starts_with("toile "), "{version}");
+}
+
+#[test]
+fn unknown_and_missing_words_are_refused() {
+    let calls: [&[&str]; 22] = [
+        &["sew"],
+        &["regenerate"],
+        &["regenerate", "t.json"],
+        &["regenerate", "t.json", "--body", "b.obj"],
+        &["regenerate", "t.json", "--body", "b.obj", "--out"],
+        &["regenerate", "t.json", "--body", "b.obj", "--out", "o", "--formats", "docx"],
+        &["regenerate", "t.json", "--body", "b.obj", "--out", "o", "--levels", "99"],
+        &["regenerate", "t.json", "--body", "b.obj", "--out", "o", "--levels", "two"],
+        &["regenerate", "t.json", "--body", "b.obj", "--out", "o", "--paper", "a17"],
+        &["regenerate", "t.json", "--body", "b.obj", "--out", "o", "--dxf", "acme"],
+        &["regenerate", "t.json", "--body", "b.obj", "--out", "o", "--threads", "0"],
+        &["regenerate", "t.json", "--body", "b.obj", "--out", "o", "--quiet", "--verbose"],
+        &["batch", "t.json", "--bodies", "b"],
+        &["features"],
+        &["features", "a.obj", "b.obj"],
+        &["form"],
+        &["form", "--bust", "wide", "-o", "f.obj"],
+        &["check"],
+        &["info", "--volume", "a.obj"],
+        &["flatten", "a.obj"],
+        &["render", "a.obj", "-o", "a.png", "--view", "inside"],
+        &["render", "a.obj"],
+    ];
+    for call in calls {
+        toile(call).refused(2, "");
+    }
+    assert_eq!(toile::<&str>(&[]).code, Some(2), "no words at all");
+}
+
+#[test]
+fn words_that_only_the_program_can_judge_are_refused_too() {
+    let folder = Folder::new("judged-words");
+    let form = word(form());
+    let dress = dress();
+    let dress = word(&dress);
+    let out = folder.join("out");
+    for shard in ["0/3", "4/3", "1/0", "1", "a/b", "1/2/3", "-1/2"] {
+        let shard = format!("--shard={shard}");
+        toile(&["batch", dress, "--bodies", form, "--out", word(&out), &shard]).refused(2, "shard");
+    }
+    for size in ["0x100", "100x0", "100", "axb", "-5x5", "100x100x100"] {
+        let size = format!("--size={size}");
+        let picture = folder.join("a.png");
+        toile(&["render", form, "-o", word(&picture), &size]).refused(2, "size");
+    }
+    let wrong_kind = [
+        vec!["render", form, "-o", "a.jpg"],
+        vec!["flatten", form, "-o", "a.docx"],
+        vec!["flatten", form, "-o", "a"],
+        vec!["form", "--bust", "90", "-o", "a.docx"],
+        vec!["flatten", form, "-o", "a.svg", "--cut", "1-x"],
+        vec!["flatten", form, "-o", "a.svg", "--cut", "0-1"],
+    ];
+    for call in wrong_kind {
+        let call: Vec<String> = call
+            .iter()
+            .map(|w| {
+                if w.starts_with("a.") || *w == "a" {
+                    word(&folder.join(w)).to_owned()
+                } else {
+                    (*w).to_owned()
+                }
+            })
+            .collect();
+        toile(&call).refused(2, "");
+    }
+    assert_eq!(folder.list(), Vec::<String>::new(), "nothing was written");
+}
