@@ -205,8 +205,8 @@ pub fn add_wires(body: &mut Body, random: &mut Random) {
     if old > 0 {
         let tail = body.add_edge(id, NodeId(random.below(old) as u32), c).unwrap();
         let s = body.surface_mut(id);
-        let [p, q] = [0.25, 0.75]
-            .map(|u| s.add_attribute_node(AttributeNode::OnEdge { edge: tail, u }).unwrap());
+        let [p, q] =
+            [0.25, 0.75].map(|u| s.add_attribute_node(AttributeNode::OnEdge { edge: tail, u }).unwrap());
         s.add_attribute_edge(AttributeEdge { name: None, nodes: vec![p, q] }).unwrap();
     }
 }
@@ -232,4 +232,3 @@ pub fn add_attributes(body: &mut Body, random: &mut Random) {
         }
     }
 }
-

@@ -11,7 +11,13 @@ pub(super) enum Record {
     /// The edge turned by a quarter. Inverse: turned back.
     SwapEdge { surface: SurfaceId, edge: EdgeId, clockwise: bool },
     /// One edge split (its partners on a joint have records of their own). Inverse: joined.
-    SplitEdge { surface: SurfaceId, edge: EdgeId, at: f64, position: DVec3, attributes: Option<Box<Attributes>> },
+    SplitEdge {
+        surface: SurfaceId,
+        edge: EdgeId,
+        at: f64,
+        position: DVec3,
+        attributes: Option<Box<Attributes>>,
+    },
 }
 
 /// The attributes of a surface before an operator that changed them.

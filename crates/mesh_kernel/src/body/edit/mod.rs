@@ -1,19 +1,19 @@
 //! Editing by operators that can be undone (K4, K5).
 //!
-//! An [`Editor`] holds a body, the stars of its nodes and a journal. Every operator first finds out whether it may
+//! An [`Editor`] holds a body, the pairs of nodes that edges join, and a journal. Every operator first finds out whether it may
 //! (typed refusals, nothing changed), then acts and is logged. [`Editor::undo`] gives the body back bit for bit, ids
 //! included; [`Editor::transaction`] rolls back whole on an error.
 
+mod edge_set;
 mod journal;
 mod split_edge;
-mod stars;
 mod swap_edge;
 
 pub use split_edge::{EdgeSplit, SplitEdgeError};
 pub use swap_edge::{Guard, SwapError};
 
+use edge_set::EdgeSet;
 use journal::{Journal, Record};
-use stars::Stars;
 
 use super::{Body, SurfaceId};
 
@@ -21,7 +21,8 @@ use super::{Body, SurfaceId};
 #[derive(Clone, Debug, Default)]
 pub struct Editor {
     body: Body,
-    stars: Vec<Option<Stars>>,
+    /// By surface, made when first asked for.
+    joined: Vec<Option<EdgeSet>>,
     journal: Journal,
     /// Depth of transactions that are open.
     open: u32,
@@ -30,8 +31,8 @@ pub struct Editor {
 impl Editor {
     /// Takes a body to edit. The journal is empty.
     pub fn new(body: Body) -> Self {
-        let stars = vec![None; body.surfaces.len()];
-        Self { body, stars, journal: Journal::default(), open: 0 }
+        let joined = vec![None; body.surfaces.len()];
+        Self { body, joined, journal: Journal::default(), open: 0 }
     }
 
     /// The body as it is now.
@@ -126,11 +127,9 @@ impl Editor {
         }
     }
 
-    /// Makes the stars of a surface, if they are not there.
-    fn stars(&mut self, surface: SurfaceId) {
-        let stars = &mut self.stars[surface.index()];
-        if stars.is_none() {
-            *stars = Some(Stars::new(&self.body.surfaces[surface.index()]));
-        }
+    /// Whether an edge of the surface joins two nodes. O(edges) when first asked, then O(1).
+    fn joined(&mut self, surface: SurfaceId, a: u32, b: u32) -> bool {
+        let s = &self.body.surfaces[surface.index()];
+        self.joined[surface.index()].get_or_insert_with(|| EdgeSet::new(s)).contains(a, b)
     }
 }

@@ -40,8 +40,10 @@ pub enum SplitEdgeError {
 /// What an edge was split into.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EdgeSplit {
-    /// The edge and its partners on the joint, in order of surfaces and edges.
-    pub edges: Vec<SplitEdge>,
+    /// The edge.
+    pub edge: SplitEdge,
+    /// Its partners on the joint, in order of surfaces and edges.
+    pub partners: Vec<SplitEdge>,
 }
 
 impl Editor {
@@ -53,7 +55,12 @@ impl Editor {
     /// # Errors
     /// Unknown edge; a parameter outside the edge; ids run out. Nothing is changed then. O(1) inside a surface,
     /// O(length of the chain) on one.
-    pub fn split_edge(&mut self, surface: SurfaceId, edge: EdgeId, at: f64) -> Result<EdgeSplit, SplitEdgeError> {
+    pub fn split_edge(
+        &mut self,
+        surface: SurfaceId,
+        edge: EdgeId,
+        at: f64,
+    ) -> Result<EdgeSplit, SplitEdgeError> {
         let missing = SplitEdgeError::NoEdge { surface, edge };
         let s = self.body.surfaces.get(surface.index()).ok_or(missing.clone())?;
         let &[a, b] = s.edges.get(edge.index()).ok_or(missing)?;
@@ -61,42 +68,41 @@ impl Editor {
             return Err(SplitEdgeError::Parameter(at));
         }
         let position = between(s.positions[a as usize], s.positions[b as usize], at);
-        let mut edges = vec![(surface, edge, at)];
-        if s.edge_chain(edge).is_some() {
-            let own = self.joint_reversed(surface, edge);
-            for (t, d) in self.body.partners(surface, edge) {
-                edges.push((t, d.edge(), if d.is_reversed() == own { at } else { 1.0 - at }));
-            }
-            edges.sort_by_key(|(t, e, _)| (*t, *e));
+        if s.edges.len() + 3 >= 1 << 31 {
+            return Err(SplitEdgeError::TooLarge(surface));
         }
-        for (t, ..) in &edges {
-            // A face may have two of the edges; three more edges each is more than enough.
-            if self.body.surface(*t).edges.len() + 3 * edges.len() >= 1 << 31 {
+        if s.edge_chain(edge).is_none_or(|c| s.chain(c).joint.is_none()) {
+            let edge = self.split_one(surface, edge, at, position);
+            return Ok(EdgeSplit { edge, partners: Vec::new() });
+        }
+        let own = self.joint_reversed(surface, edge);
+        let mut partners: Vec<(SurfaceId, EdgeId, f64)> = Vec::new();
+        for (t, d) in self.body.partners(surface, edge) {
+            partners.push((t, d.edge(), if d.is_reversed() == own { at } else { 1.0 - at }));
+        }
+        partners.sort_by_key(|(t, e, _)| (*t, *e));
+        for (t, ..) in &partners {
+            if self.body.surface(*t).edges.len() + 3 * (partners.len() + 1) >= 1 << 31 {
                 return Err(SplitEdgeError::TooLarge(*t));
             }
         }
-        let mut result = EdgeSplit { edges: Vec::with_capacity(edges.len()) };
-        let mut split = |editor: &mut Self| {
-            for &(surface, edge, at) in &edges {
-                let s = editor.body.surface(surface);
-                let (node, second) = (s.positions.len() as u32, EdgeId(s.edges.len() as u32));
-                result.edges.push(SplitEdge { surface, edge, second, node });
-                let attributes = (!s.attribute_nodes.is_empty()).then(|| {
-                    Box::new(Attributes { nodes: s.attribute_nodes.clone(), edges: s.attribute_edges.clone() })
-                });
-                editor.apply(Record::SplitEdge { surface, edge, at, position, attributes });
-            }
-        };
-        if edges.len() == 1 {
-            split(self);
-        } else {
-            let done: Result<(), std::convert::Infallible> = self.transaction(|editor| {
-                split(editor);
-                Ok(())
-            });
-            let Ok(()) = done;
-        }
-        Ok(result)
+        let done: Result<EdgeSplit, std::convert::Infallible> = self.transaction(|editor| {
+            let edge = editor.split_one(surface, edge, at, position);
+            let partners = partners.iter().map(|&(t, e, at)| editor.split_one(t, e, at, position)).collect();
+            Ok(EdgeSplit { edge, partners })
+        });
+        let Ok(split) = done;
+        Ok(split)
+    }
+
+    fn split_one(&mut self, surface: SurfaceId, edge: EdgeId, at: f64, position: DVec3) -> SplitEdge {
+        let s = self.body.surface(surface);
+        let (node, second) = (s.positions.len() as u32, EdgeId(s.edges.len() as u32));
+        let attributes = (!s.attribute_nodes.is_empty()).then(|| {
+            Box::new(Attributes { nodes: s.attribute_nodes.clone(), edges: s.attribute_edges.clone() })
+        });
+        self.apply(Record::SplitEdge { surface, edge, at, position, attributes });
+        SplitEdge { surface, edge, second, node }
     }
 
     /// Whether the joint runs over the edge from its second node to its first.
@@ -113,7 +119,7 @@ impl Editor {
 
     pub(super) fn do_split(&mut self, surface: SurfaceId, edge: EdgeId, at: f64, position: DVec3) {
         let s = &mut self.body.surfaces[surface.index()];
-        let mut stars = self.stars[surface.index()].as_mut();
+        let mut joined = self.joined[surface.index()].as_mut();
         let e = edge.0;
         let [a, b] = s.edges[edge.index()];
         let (m, second) = (s.positions.len() as u32, s.edges.len() as u32);
@@ -127,18 +133,14 @@ impl Editor {
         if !s.planar.is_empty() {
             s.planar.push(s.planar[a as usize] * (1.0 - at) + s.planar[b as usize] * at);
         }
-        if let Some(stars) = &mut stars {
-            stars.unlink(e, b, &s.edges);
-            stars.push_node();
-        }
         s.edges[edge.index()] = [a, m];
         s.edges.push([m, b]);
         s.edge_faces.push([NONE; 2]);
         s.edge_chain.push(NO_CHAIN);
-        if let Some(stars) = &mut stars {
-            stars.link(e, 1, m);
-            stars.link(second, 0, m);
-            stars.link(second, 1, b);
+        if let Some(joined) = &mut joined {
+            joined.remove(a, b);
+            joined.insert(a, m);
+            joined.insert(m, b);
         }
         for (slot, face) in s.edge_faces[edge.index()].into_iter().enumerate().filter(|(_, f)| *f != NONE) {
             // On the left (slot 0) the face runs a → b, on the right b → a; the part at `a` stays.
@@ -172,9 +174,8 @@ impl Editor {
             s.edge_faces[second as usize][slot] = new;
             s.faces.push(corners);
             s.face_edges.push(sides);
-            if let Some(stars) = &mut stars {
-                stars.link(cut, 0, m);
-                stars.link(cut, 1, tip);
+            if let Some(joined) = &mut joined {
+                joined.insert(m, tip);
             }
         }
         if let Some(c) = s.edge_chain(edge) {
@@ -190,7 +191,7 @@ impl Editor {
     /// The inverse of the last split of this surface: `edge` and the last node become one edge again.
     pub(super) fn do_join(&mut self, surface: SurfaceId, edge: EdgeId, attributes: Option<&Attributes>) {
         let s = &mut self.body.surfaces[surface.index()];
-        let mut stars = self.stars[surface.index()].as_mut();
+        let mut joined = self.joined[surface.index()].as_mut();
         let [a, m] = s.edges[edge.index()];
         let faces = s.edge_faces[edge.index()];
         let second = s.edges.len() as u32 - 1 - faces.iter().filter(|f| **f != NONE).count() as u32;
@@ -203,16 +204,14 @@ impl Editor {
             let i = s.face_edges[f].iter().position(|&x| x == edge.0).unwrap_or(0);
             let [j, k] = [(i + 1) % 3, (i + 2) % 3];
             let new = s.faces.len() as u32 - 1;
-            let cut = s.edges.len() as u32 - 1;
+            let cut = s.edges.len() - 1;
             let sides = s.face_edges[new as usize];
             let (corner, side) = if slot == 0 { (j, j) } else { (i, k) };
             s.faces[f][corner] = b;
             s.face_edges[f][side] = sides[side];
             retarget(s, sides[side], new, face);
-            if let Some(stars) = &mut stars {
-                stars.unlink(cut, m, &s.edges);
-                stars.unlink(cut, s.edges[cut as usize][1], &s.edges);
-                stars.pop_edge();
+            if let Some(joined) = &mut joined {
+                joined.remove(m, s.edges[cut][1]);
             }
             s.edges.pop();
             s.edge_faces.pop();
@@ -220,19 +219,14 @@ impl Editor {
             s.faces.pop();
             s.face_edges.pop();
         }
-        if let Some(stars) = &mut stars {
-            stars.unlink(second, m, &s.edges);
-            stars.unlink(second, b, &s.edges);
-            stars.pop_edge();
-            stars.unlink(edge.0, m, &s.edges);
-            stars.pop_node();
-        }
         s.edges.pop();
         s.edge_faces.pop();
         s.edge_chain.pop();
         s.edges[edge.index()] = [a, b];
-        if let Some(stars) = &mut stars {
-            stars.link(edge.0, 1, b);
+        if let Some(joined) = &mut joined {
+            joined.remove(a, m);
+            joined.remove(m, b);
+            joined.insert(a, b);
         }
         s.positions.pop();
         if !s.backup.is_empty() {

@@ -35,7 +35,9 @@ pub enum SwapError {
         edge: EdgeId,
     },
     /// The edge lies on a joint, which holds it to the edges of other sheets.
-    #[error("edge {edge} of surface {surface} lies on joint {joint} of surfaces {sheets:?}; take it off the joint first")]
+    #[error(
+        "edge {edge} of surface {surface} lies on joint {joint} of surfaces {sheets:?}; take it off the joint first"
+    )]
     OnJoint {
         /// Surface.
         surface: SurfaceId,
@@ -55,7 +57,9 @@ pub enum SwapError {
         nodes: [NodeId; 2],
     },
     /// Attributes lie on the edge or its faces and would move.
-    #[error("edge {edge} of surface {surface} or a face of it carries attributes; triangulate them into edges first")]
+    #[error(
+        "edge {edge} of surface {surface} or a face of it carries attributes; triangulate them into edges first"
+    )]
     CarriesAttributes {
         /// Surface.
         surface: SurfaceId,
@@ -87,7 +91,7 @@ impl Editor {
     /// anticlockwise: it runs from the corner of its right face to that of its left face.
     ///
     /// # Errors
-    /// See [`SwapError`]; nothing is changed then. O(edges at one node).
+    /// See [`SwapError`]; nothing is changed then. O(1).
     pub fn swap_edge(&mut self, surface: SurfaceId, edge: EdgeId, guard: Guard) -> Result<(), SwapError> {
         self.can_swap(surface, edge, guard)?;
         self.apply(Record::SwapEdge { surface, edge, clockwise: false });
@@ -108,13 +112,11 @@ impl Editor {
             return Err(SwapError::CarriesAttributes { surface, edge });
         }
         let (c, d) = (s.apex(left, edge.0), s.apex(right, edge.0));
-        self.stars(surface);
-        let s = &self.body.surfaces[surface.index()];
-        let joined = c == d || self.stars[surface.index()].as_ref().is_some_and(|t| t.joined(c, d, s.edges()));
+        let joined = c == d || self.joined(surface, c, d);
         if joined {
             return Err(SwapError::EdgeExists { surface, nodes: [NodeId(c), NodeId(d)] });
         }
-        if guard == Guard::NoTurn && turns(s, edge, c, d) {
+        if guard == Guard::NoTurn && turns(self.body.surface(surface), edge, c, d) {
             return Err(SwapError::Turns { surface, edge });
         }
         Ok(())
@@ -151,14 +153,10 @@ impl Editor {
             let faces = &mut s.edge_faces[x as usize];
             faces[usize::from(faces[0] != from)] = to;
         }
-        if let Some(stars) = &mut self.stars[surface.index()] {
-            stars.unlink(e, a, &s.edges);
-            stars.unlink(e, b, &s.edges);
-        }
         s.edges[edge.index()] = [new_left[0], new_left[1]];
-        if let Some(stars) = &mut self.stars[surface.index()] {
-            stars.link(e, 0, new_left[0]);
-            stars.link(e, 1, new_left[1]);
+        if let Some(joined) = &mut self.joined[surface.index()] {
+            joined.remove(a, b);
+            joined.insert(c, d);
         }
     }
 }
