@@ -16,6 +16,7 @@ mod hull;
 mod section;
 mod signed_distance;
 mod strip;
+mod triangle_pack;
 mod triangle_pair;
 mod welded;
 mod winding;
