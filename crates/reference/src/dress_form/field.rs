@@ -81,6 +81,8 @@ struct Stub {
     across: DVec3,
     /// Half axes along `across` and square to both.
     radius: [f64; 2],
+    /// Where it ends round again; endless limbs end at their plates.
+    length: f64,
     fillet: f64,
 }
 
@@ -90,7 +92,7 @@ impl Stub {
         let along = d.dot(self.axis);
         let u = d.dot(self.across);
         let w = d.dot(self.axis.cross(self.across));
-        let back = along.min(0.0);
+        let back = along.min(0.0) + (along - self.length).max(0.0);
         let r = DVec3::new(self.radius[0], self.radius[1], self.radius[0].max(self.radius[1]));
         ellipsoid(DVec3::new(u, w, back), r)
     }
@@ -108,10 +110,15 @@ pub(super) struct Field {
     arm: Stub,
     /// Shoulder line: height at x = 0 and fall per unit of x.
     roof: [f64; 2],
+    /// Front of the shoulder line, mm.
+    roof_ridge: f64,
     head: Option<(DVec3, DVec3)>,
     /// Plates: floor, arm (left one), neck unless there is a head.
     pub(super) cuts: Vec<Cut>,
 }
+
+/// Fall of the shoulder before and behind its ridge: over the square of the distance, times stature.
+const ROOF_BEND: f64 = 8.0;
 
 /// Index of the arm plate in [`Field::cuts`].
 pub(super) const ARM: usize = 1;
@@ -124,8 +131,8 @@ impl Field {
         let (front, back) = hills(m, &levels);
 
         // Neck: leans forward; the fillet at its foot makes the neck base.
-        let neck_radius = 0.87 * m.neck * 10.0 / std::f64::consts::TAU;
-        let lean = 0.30_f64;
+        let neck_radius = 0.84 * m.neck * 10.0 / std::f64::consts::TAU;
+        let lean = 0.27_f64;
         let neck_axis = DVec3::new(0.0, lean.cos(), lean.sin());
         let neck_foot = 0.5 * (levels.nape + levels.front_neck);
         let neck_centre = sections.at(levels.nape).centre - 0.0015 * h;
@@ -135,7 +142,9 @@ impl Field {
             axis: neck_axis,
             across: DVec3::new(0.0, -lean.sin(), lean.cos()),
             radius: [neck_radius * 1.02, neck_radius * 0.98],
-            fillet: 0.026 * h,
+            // A head swallows the end.
+            length: if head { sunk + 0.09 * h } else { f64::INFINITY },
+            fillet: 0.021 * h,
         };
 
         // Shoulder line from the neck side to the shoulder point.
@@ -163,6 +172,7 @@ impl Field {
             axis: arm_axis,
             across,
             radius: [half_height, half_depth],
+            length: f64::INFINITY,
             fillet: 0.026 * h,
         };
         let mut cuts = vec![
@@ -182,6 +192,7 @@ impl Field {
             neck,
             arm,
             roof,
+            roof_ridge: chest.centre - 0.010 * h,
             head: head.then(|| {
                 let size = if m.figure == Figure::Child { 1.0 + 0.25 * ((150.0 - m.height) / 70.0).clamp(0.0, 1.0) } else { 1.0 };
                 let r = DVec3::new(0.046, 0.066, 0.057) * h * size;
@@ -225,8 +236,9 @@ impl Field {
         let skin = ribs.front_at(x);
         const SINK: f64 = 0.42;
         let shape = |rise: f64| {
-            let depth = rise / (1.0 - SINK);
-            (skin - SINK * depth, depth)
+            // A small breast is the cap of an ellipsoid that lies deeper.
+            let depth = (rise / (1.0 - SINK)).max(0.5 * side);
+            (skin + rise - depth, depth)
         };
         // The tape at height y over ribs and breasts with upper half axis `upper`.
         let girth_at = |rise: f64, y: f64, upper: f64| {
@@ -318,7 +330,10 @@ impl Field {
         if p.y > self.levels.armpit - 0.10 * h {
             let soft = 0.03 * h;
             let x = (p.x * p.x + soft * soft).sqrt();
-            let roof = (p.y - self.roof[0] + self.roof[1] * x) / self.roof[1].hypot(1.0);
+            // The shoulder falls off before and behind its ridge.
+            let (bend, dz) = (ROOF_BEND / h, p.z - self.roof_ridge);
+            let slope = self.roof[1].hypot(2.0 * bend * dz);
+            let roof = (p.y - self.roof[0] + self.roof[1] * x + bend * dz * dz) / slope.hypot(1.0);
             f = -smooth_min(-f, -roof, 0.032 * h);
             // The arm ends a little beyond its plate, wherever that is.
             let arm = match self.cuts.get(ARM) {
