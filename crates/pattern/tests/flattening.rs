@@ -143,6 +143,23 @@ fn a_flounce_of_more_than_a_turn_is_reported_to_lie_on_itself() {
 }
 
 #[test]
+fn an_earlier_run_is_a_good_start() {
+    let mut input = alone(saddle(40));
+    let first = flatten(&input);
+    for p in &mut input.patches[0].positions {
+        p.z *= 1.03;
+    }
+    let cold = flatten(&input);
+    input.start = first.flats;
+    let warm = flatten(&input);
+    let (a, b) = (&cold.pieces[0].report, &warm.pieces[0].report);
+    assert!(b.steps < a.steps + 1 && (a.energy - b.energy).abs() < 1e-9, "{a:?} {b:?}");
+    // A start that does not fit is passed over.
+    input.start[0].faces.pop();
+    assert_eq!(flatten(&input).pieces[0].report, *a);
+}
+
+#[test]
 fn threads_do_not_change_a_bit() {
     let (n, m) = (12, 20);
     let patches = vec![barrel("a", 0.0, 0.9, n, m), barrel("b", 0.9, 1.4, n, m), cap(20), saddle(20)];
