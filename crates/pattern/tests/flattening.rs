@@ -119,7 +119,7 @@ fn a_tube_is_cut_open_and_a_ring_is_not() {
     let yoke = tube("yoke", 40, 8, |u, v| {
         let (s, c) = (std::f64::consts::TAU * u).sin_cos();
         let r = 150.0 - 80.0 * v;
-        DVec3::new(r * c, 0.002 * r * r, -r * s)
+        DVec3::new(r * c, 0.001 * r * r, -r * s)
     });
     let pattern = flatten(&PatternInput { patches: vec![sleeve, yoke], ..PatternInput::default() });
     let [sleeve, yoke] = &pattern.pieces[..] else { panic!() };
