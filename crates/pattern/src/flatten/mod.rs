@@ -16,6 +16,8 @@ mod sheet;
 mod sparse;
 pub(crate) mod topology;
 
+pub(crate) use self::overlap::crossings;
+
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 

@@ -18,7 +18,7 @@ use super::{
     outline::{SewingLine, turn},
     simplify::{needed, signed_area},
 };
-use crate::{CornerStyle, CutLoop, PatternOptions};
+use crate::{CornerStyle, CutLoop, PatternOptions, flatten::crossings};
 
 /// One sewing segment with its allowance.
 #[derive(Clone, Copy)]
@@ -171,6 +171,8 @@ fn finish(mut points: Vec<DVec2>, outer: bool, options: &PatternOptions) -> CutL
     let walked: Vec<DVec2> = (0..=n).map(|i| points[(start + i) % n]).collect();
     let corner: Vec<bool> = (0..=n).map(|i| is_corner((start + i) % n)).collect();
     let kept = needed(&walked, 0.5 * options.line_tolerance_mm, |i| corner[i] || i == n / 2);
+    // Where the cut line all but touches itself, thinning may make it cross.
+    let kept = if is_simple(&walked, &kept) { kept } else { (0..=n).collect() };
     let kept = &kept[..kept.len() - 1];
     let points: Vec<DVec2> = kept.iter().map(|&i| walked[i]).collect();
     // A raw corner of a dense curve may turn out smooth once thinned, never the other way round.
@@ -183,4 +185,10 @@ fn finish(mut points: Vec<DVec2>, outer: bool, options: &PatternOptions) -> CutL
         })
         .collect();
     CutLoop { points, corner }
+}
+
+/// Whether the closed line through some of the points does not cross itself.
+fn is_simple(points: &[DVec2], kept: &[usize]) -> bool {
+    let rim: Vec<u32> = kept[..kept.len() - 1].iter().map(|&i| i as u32).collect();
+    crossings(points, &[rim]) == 0
 }
