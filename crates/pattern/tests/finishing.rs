@@ -90,7 +90,7 @@ fn corners_take_the_style_asked_for() {
 fn a_mirrored_hem_lies_flush_when_folded_back() {
     // A skirt that widens downward: the hem's allowance must narrow below the hem line.
     let skirt = grid("skirt", 8, 8, |u, v| {
-        let half = 150.0 - 60.0 * v;
+        let half = 250.0 - 160.0 * v;
         DVec3::new((2.0 * u - 1.0) * half, 300.0 * v, 0.0)
     });
     let hem: Vec<u32> = (0..=8).map(|i| i * 9).collect();

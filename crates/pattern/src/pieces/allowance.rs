@@ -47,6 +47,7 @@ pub(crate) fn cut_lines(lines: &[SewingLine], options: &PatternOptions) -> Vec<C
     let body: Vec<Vec<[f64; 2]>> =
         lines.iter().map(|l| l.outline.points().iter().map(|p| p.to_array()).collect()).collect();
     let mut added: Vec<Vec<[f64; 2]>> = Vec::new();
+    let mut trimmed: Vec<Vec<[f64; 2]>> = Vec::new();
     for line in lines {
         let segments = segments(line);
         for (i, s) in segments.iter().enumerate() {
@@ -58,12 +59,18 @@ pub(crate) fn cut_lines(lines: &[SewingLine], options: &PatternOptions) -> Vec<C
             if let Some(wedge) = wedge(s, next, options.mitre_limit) {
                 added.push(polygon(&wedge));
             }
+            trimmed.extend(trim(s, next).map(|t| polygon(&t)));
         }
     }
     let shapes = if added.is_empty() {
         vec![body]
     } else {
         body.overlay(&added, OverlayRule::Union, FillRule::NonZero)
+    };
+    let shapes = if trimmed.is_empty() {
+        shapes
+    } else {
+        shapes.overlay(&trimmed, OverlayRule::Difference, FillRule::NonZero)
     };
     let mut loops: Vec<Vec<DVec2>> = shapes
         .into_iter()
@@ -155,6 +162,27 @@ fn wedge(a: &Segment, b: &Segment, limit: f64) -> Option<Vec<DVec2>> {
         from + run * t
     };
     Some(vec![p, ea, cut(ea), cut(eb), eb])
+}
+
+/// What a mirrored allowance loses where its neighbour's edge slopes inward: folded back it would stick out.
+fn trim(a: &Segment, b: &Segment) -> Option<[DVec2; 4]> {
+    let (ta, tb, na, nb) = (a.along(), b.along(), a.outward(), b.outward());
+    let (sin, p) = (ta.perp_dot(tb), a.to);
+    if !a.ends_chain || sin <= 1e-9 || ta.dot(tb) >= 0.0 {
+        return None;
+    }
+    let far = 2.0 * (a.width + b.width);
+    if a.style == CornerStyle::Mirrored && a.width > 0.0 {
+        let on_a = p + ta * (b.width / sin);
+        let end = on_a + (tb - 2.0 * tb.dot(na) * na) * (a.width / sin) * 1.01;
+        return Some([on_a, end, end + ta * (far + (on_a - end).dot(ta)), on_a + ta * far]);
+    }
+    if b.style == CornerStyle::Mirrored && b.width > 0.0 {
+        let on_b = p - tb * (a.width / sin);
+        let end = on_b - (ta - 2.0 * ta.dot(nb) * nb) * (b.width / sin) * 1.01;
+        return Some([on_b, on_b - tb * far, end - tb * (far - (on_b - end).dot(tb)), end]);
+    }
+    None
 }
 
 /// Orders, thins and classifies the points of a loop.
