@@ -1,10 +1,11 @@
 //! Collision with the reference body (T6): the garment is bent outward where it comes too near, as cloth would be.
 //!
 //! Nodes are not pushed one by one, which dents. One scalar field over the whole garment says how far every node moves
-//! along the body's (smoothed) outward direction. It costs bending energy, and a little for being there at all, so that it
-//! fades out with a distance; and it must not be less than the gap to the wanted clearance. This obstacle problem is solved
-//! by a primal–dual active set (Hintermüller, Ito & Kunisch 2003): each step is one numeric factorisation with the kept
-//! symbolic part. Distances are measured again after each move, and triangles are checked exactly at the end.
+//! along the body's (smoothed) outward direction. It costs bending and stretching energy, and a little for being there at
+//! all, in such shares that it fades out over a distance without swinging to the other side; and it must not be less than
+//! the gap to the wanted clearance. This obstacle problem is solved by a primal–dual active set (Hintermüller, Ito &
+//! Kunisch 2003): each step is one numeric factorisation with the kept symbolic part, and the contacts found are where the
+//! next problem begins. Distances are measured again after each move, and triangles are checked exactly at the end.
 
 use std::f64::consts::PI;
 
@@ -34,7 +35,7 @@ pub struct CollisionReport {
 }
 
 /// The distance over which a push fades out, mm.
-const FADE: f64 = 90.0;
+const FADE: f64 = 45.0;
 /// Nodes nearer than this to the wanted clearance need no more, mm.
 const NEAR_ENOUGH: f64 = 0.05;
 /// A gap is over-fulfilled by this, so that the soft contact does not come short, mm.
@@ -42,7 +43,7 @@ const MARGIN: f64 = 0.02;
 /// Rounds of measuring and pushing.
 const ROUNDS: usize = 8;
 /// Steps of the active set in a round.
-const ACTIVE_STEPS: usize = 7;
+const ACTIVE_STEPS: usize = 12;
 /// Extra clearance a round for triangles that still cross, mm.
 const CROSSING_STEP: f64 = 1.5;
 
@@ -51,7 +52,11 @@ pub(crate) struct Drape<'a> {
     refined: &'a Refined,
     skin: &'a Skin<'a>,
     flaps: Vec<Flap>,
+    /// Stretching: node pairs with their cotangent weights.
+    pairs: Vec<([u32; 2], f64)>,
     mass: Vec<f64>,
+    /// Nodes that touched in the last field: where the next search begins.
+    touching: Vec<bool>,
     /// Stiffness of a contact.
     contact: f64,
     factor: SparseFactor,
@@ -75,12 +80,24 @@ impl<'a> Drape<'a> {
         let n = refined.flat.len();
         let faces: Vec<[u32; 3]> = (0..refined.ids.len()).flat_map(|s| refined.welded_faces(s)).collect();
         let mut mass = vec![0.0; n];
+        let mut pairs: Vec<([u32; 2], f64)> = Vec::with_capacity(3 * faces.len());
+        // A plate under tension on a bed of springs: with a tension of twice the root of stiffness times bed, what is
+        // pushed at one place fades out as fast as it can without overshooting.
+        let tension = 2.0 / FADE.powi(2);
         for f in &faces {
-            let [a, b, c] = f.map(|v| refined.flat[v as usize]);
-            let area = 0.5 * (b - a).cross(c - a).length();
+            let corners = f.map(|v| refined.flat[v as usize]);
+            let area = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).length();
             f.iter().for_each(|v| mass[*v as usize] += area / 3.0);
+            for i in 0..3 {
+                let (p, q, r) = (corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]);
+                // Slivers and obtuse corners: a weight that is negative or huge would spoil the matrix.
+                let cot = ((p - r).dot(q - r) / (2.0 * area).max(1e-9)).clamp(0.02, 10.0);
+                let (a, b) = (f[i], f[(i + 1) % 3]);
+                if a != b {
+                    pairs.push(([a.max(b), a.min(b)], 0.5 * tension * cot));
+                }
+            }
         }
-        // A plate on a bed of springs fades out over (stiffness / bed)^¼.
         let smallest = 1e-3 * mass.iter().sum::<f64>() / n.max(1) as f64;
         mass.iter_mut().for_each(|m| *m = m.max(smallest) / FADE.powi(4));
         let mut diagonal = mass.clone();
@@ -89,13 +106,36 @@ impl<'a> Drape<'a> {
                 diagonal[*v as usize] += f.weight * k * k;
             }
         }
-        let mut sorted = diagonal.clone();
-        sorted.sort_by(f64::total_cmp);
-        let contact = 1e5 * sorted.get(n / 2).copied().unwrap_or(1.0);
-        let pairs = flaps.iter().flat_map(|f| entries(f).map(|(i, j, _)| [i, j]));
-        let pattern = SymmetricPattern::new(n, pairs, &refined.flat).map_err(|e| failed(&e))?;
+        diagonal.sort_by(f64::total_cmp);
+        let contact = 1e5 * diagonal.get(n / 2).copied().unwrap_or(1.0);
+        let places = flaps.iter().flat_map(|f| entries(f).map(|(i, j, _)| [i, j]));
+        let places = places.chain(pairs.iter().map(|p| p.0));
+        let pattern = SymmetricPattern::new(n, places, &refined.flat).map_err(|e| failed(&e))?;
         let factor = SparseFactor::new(pattern);
-        Ok(Self { refined, skin, flaps, mass, contact, factor, faces, clearance, level, symmetric })
+        let touching = vec![false; n];
+        Ok(Self {
+            refined,
+            skin,
+            flaps,
+            pairs,
+            mass,
+            touching,
+            contact,
+            factor,
+            faces,
+            clearance,
+            level,
+            symmetric,
+        })
+    }
+
+    /// Begins the next search with the contacts of a coarser garment: nodes keep their numbers on their surfaces.
+    pub(crate) fn start_from(&mut self, coarse: &Drape) {
+        for (own, other) in self.refined.weld.iter().zip(&coarse.refined.weld) {
+            for (w, c) in own.iter().zip(other) {
+                self.touching[*w as usize] |= coarse.touching[*c as usize];
+            }
+        }
     }
 
     fn look(&self, positions: &[DVec3]) -> Vec<Sight> {
@@ -218,7 +258,12 @@ impl<'a> Drape<'a> {
     }
 
     /// What is to be reported of final positions.
-    pub(crate) fn report(&self, positions: &[DVec3], moved: &[f64], crossings: &Crossings) -> CollisionReport {
+    pub(crate) fn report(
+        &self,
+        positions: &[DVec3],
+        moved: &[f64],
+        crossings: &Crossings,
+    ) -> CollisionReport {
         let distances: Vec<f64> = positions.par_iter().map(|p| self.skin.signed(*p)).collect();
         let mut crossing: Vec<u32> =
             crossings.faces_crossing(&self.mesh(positions)).into_iter().map(|c| c.0).collect();
@@ -233,20 +278,34 @@ impl<'a> Drape<'a> {
         }
     }
 
-    /// The field of least bending with `s ≥ gap` at every node.
+    /// The field of least energy with `s ≥ gap` at every node.
     fn field(&mut self, gaps: &[f64]) -> Result<Vec<f64>, TemplateError> {
         let n = gaps.len();
-        let mut active: Vec<bool> = gaps.iter().map(|g| *g > 0.0).collect();
+        let warm = self.touching.iter().any(|t| *t);
+        let mut active: Vec<bool> =
+            (0..n).map(|w| if warm { self.touching[w] && gaps[w] > -1.0 } else { gaps[w] > 0.0 }).collect();
+        if !active.contains(&true) {
+            active = gaps.iter().map(|g| *g > 0.0).collect();
+        }
         let mut s = vec![0.0; n];
         for step in 0..ACTIVE_STEPS {
-            let diagonal: Vec<f64> =
+            let mut diagonal: Vec<f64> =
                 (0..n).map(|w| self.mass[w] + if active[w] { self.contact } else { 0.0 }).collect();
-            let values = self.flaps.iter().flat_map(|f| entries(f).map(|(.., v)| v));
+            for ([a, b], k) in &self.pairs {
+                diagonal[*a as usize] += k;
+                diagonal[*b as usize] += k;
+            }
+            let bending = self.flaps.iter().flat_map(|f| entries(f).map(|(.., v)| v));
+            let values = bending.chain(self.pairs.iter().map(|p| -p.1));
             self.factor.refactor(values, &diagonal).map_err(|e| failed(&e))?;
             let rhs: Vec<f64> =
                 (0..n).map(|w| if active[w] { self.contact * (gaps[w] + MARGIN) } else { 0.0 }).collect();
             let apply = |x: &[f64], out: &mut [f64]| {
                 out.iter_mut().zip(x).zip(&diagonal).for_each(|((o, x), d)| *o = d * x);
+                for ([a, b], k) in &self.pairs {
+                    out[*a as usize] -= k * x[*b as usize];
+                    out[*b as usize] -= k * x[*a as usize];
+                }
                 for f in &self.flaps {
                     let sum: f64 = f.nodes.iter().zip(f.stencil).map(|(v, k)| k * x[*v as usize]).sum();
                     for (v, k) in f.nodes.iter().zip(f.stencil) {
@@ -257,7 +316,7 @@ impl<'a> Drape<'a> {
             s = self.factor.solve(&rhs, 1, &apply).map_err(|e| failed(&e))?;
             let mut changed = false;
             // Towards the end contacts are kept, so that the set cannot go round in circles.
-            let release = step + 3 < ACTIVE_STEPS;
+            let release = step + 4 < ACTIVE_STEPS;
             for w in 0..n {
                 if active[w] && release && s[w] > gaps[w] + MARGIN {
                     active[w] = false;
@@ -271,6 +330,7 @@ impl<'a> Drape<'a> {
                 break;
             }
         }
+        self.touching = active;
         Ok(s)
     }
 }

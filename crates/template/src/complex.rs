@@ -90,7 +90,8 @@ pub(crate) fn chain_edges(nodes: &[u32], closed: bool) -> Vec<[u32; 2]> {
 }
 
 fn line_edges(layout: &Layout) -> BTreeSet<[u32; 2]> {
-    let mut out: BTreeSet<[u32; 2]> = layout.lines.iter().flat_map(|l| chain_edges(&l.nodes, l.closed)).collect();
+    let mut out: BTreeSet<[u32; 2]> =
+        layout.lines.iter().flat_map(|l| chain_edges(&l.nodes, l.closed)).collect();
     let index: BTreeMap<&str, u32> =
         layout.nodes.iter().enumerate().map(|(i, n)| (n.name.as_str(), i as u32)).collect();
     for joint in layout.joints.iter().flatten() {
@@ -136,7 +137,11 @@ fn faces_inward(faces: &[[u32; 3]], positions: &[DVec3], skin: &Skin) -> bool {
     flux < 0.0
 }
 
-fn check_manifold<'n>(surface: &str, faces: &[[u32; 3]], name: &dyn Fn(u32) -> &'n str) -> Result<(), TemplateError> {
+fn check_manifold<'n>(
+    surface: &str,
+    faces: &[[u32; 3]],
+    name: &dyn Fn(u32) -> &'n str,
+) -> Result<(), TemplateError> {
     let mut sides: BTreeMap<[u32; 2], [u32; 2]> = BTreeMap::new();
     for f in faces {
         for i in 0..3 {
@@ -154,7 +159,11 @@ fn check_manifold<'n>(surface: &str, faces: &[[u32; 3]], name: &dyn Fn(u32) -> &
                 name(b)
             )
         } else if forth > 1 || back > 1 {
-            format!("the faces at the edge {}–{} turn different ways; list their nodes in the same sense", name(a), name(b))
+            format!(
+                "the faces at the edge {}–{} turn different ways; list their nodes in the same sense",
+                name(a),
+                name(b)
+            )
         } else {
             continue;
         };
@@ -170,8 +179,11 @@ fn warn_shapes<'n>(
     name: &dyn Fn(u32) -> &'n str,
     warnings: &mut Vec<String>,
 ) {
-    let mut sharp: Vec<(f64, [u32; 3])> =
-        faces.iter().map(|f| (smallest_angle(f.map(|n| positions[n as usize])), *f)).filter(|s| s.0 < SHARP).collect();
+    let mut sharp: Vec<(f64, [u32; 3])> = faces
+        .iter()
+        .map(|f| (smallest_angle(f.map(|n| positions[n as usize])), *f))
+        .filter(|s| s.0 < SHARP)
+        .collect();
     sharp.sort_by(|a, b| a.0.total_cmp(&b.0));
     if let Some((angle, [a, b, c])) = sharp.first() {
         warnings.push(format!(

@@ -59,7 +59,12 @@ impl<'a> Construction<'a> {
         let mut groups = Vec::new();
         for surfaces in surface_groups(layout) {
             let faces: Vec<[u32; 3]> = surfaces.iter().flat_map(|s| refined.welded_faces(*s)).collect();
-            groups.push(Group { flaps: flaps(&refined.flat, &faces), surfaces, hold: Vec::new(), plate: None });
+            groups.push(Group {
+                flaps: flaps(&refined.flat, &faces),
+                surfaces,
+                hold: Vec::new(),
+                plate: None,
+            });
         }
         let holds = holds(layout, lines, refined, &groups);
         for (group, hold) in groups.iter_mut().zip(holds) {
@@ -132,7 +137,8 @@ impl<'a> Construction<'a> {
                         debug_assert!(*m as usize >= old);
                         let w = weld[*m as usize] as usize;
                         if group.hold[w] != Hold::Fixed {
-                            let ends = [corners[i], corners[(i + 1) % 3]].map(|v| out[weld[v as usize] as usize]);
+                            let ends =
+                                [corners[i], corners[(i + 1) % 3]].map(|v| out[weld[v as usize] as usize]);
                             out[w] = 0.5 * (ends[0] + ends[1]);
                         }
                     }
@@ -236,7 +242,8 @@ fn holds(layout: &Layout, lines: &[LayoutLine], refined: &Refined, groups: &[Gro
                     }
                     Tag::Line { line, .. } => {
                         let l = line as usize;
-                        let free = if edge { lines[l].hold == Some(false) && !shared[w] } else { !held_line[l] };
+                        let free =
+                            if edge { lines[l].hold == Some(false) && !shared[w] } else { !held_line[l] };
                         if free { Hold::Free } else { Hold::Fixed }
                     }
                     Tag::Inside => Hold::Free,

@@ -91,7 +91,8 @@ pub(crate) fn garment_girth(positions: &[DVec3], faces: &[[u32; 3]], curve: &Fea
     let middle = curve.points.iter().sum::<DVec3>() / curve.points.len() as f64;
     let pieces = cut(positions, faces, mean_height(curve));
     let around = |p: &Piece| !p.closed || in_hull(&p.points, middle);
-    let points: Vec<DVec3> = pieces.iter().filter(|p| around(p)).flat_map(|p| p.points.iter().copied()).collect();
+    let points: Vec<DVec3> =
+        pieces.iter().filter(|p| around(p)).flat_map(|p| p.points.iter().copied()).collect();
     (points.len() >= 3).then(|| tape_length(&points, DVec3::Y))
 }
 

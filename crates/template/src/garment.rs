@@ -203,7 +203,9 @@ fn whole(refined: &Refined, line: u32, spans: usize) -> Vec<DVec3> {
         let s = refined.body.surface(*id);
         let mut parts: Vec<Vec<(f64, DVec3)>> = vec![Vec::new(); spans];
         for (e, on) in refined.edge_lines[surface].iter().enumerate() {
-            let Some(on) = on.filter(|on| on.line == line && by_span[on.span as usize].is_none()) else { continue };
+            let Some(on) = on.filter(|on| on.line == line && by_span[on.span as usize].is_none()) else {
+                continue;
+            };
             for k in 0..2 {
                 let p = s.positions()[s.edges()[e][k] as usize];
                 parts[on.span as usize].push((on.ends[k], p));
@@ -233,7 +235,10 @@ pub(crate) fn seams(refined: &Refined) -> Vec<Seam> {
                 .collect();
             let length = sides.first().map_or(0.0, |side| {
                 let positions = body.surface(refined.ids[side.surface]).positions();
-                side.nodes.windows(2).map(|w| positions[w[0] as usize].distance(positions[w[1] as usize])).sum()
+                side.nodes
+                    .windows(2)
+                    .map(|w| positions[w[0] as usize].distance(positions[w[1] as usize]))
+                    .sum()
             });
             Seam { name: body.joint(joint).name().unwrap_or_default().to_string(), joint, sides, length }
         })

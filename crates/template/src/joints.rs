@@ -166,16 +166,22 @@ fn explicit(layout: &Layout, patches: &[Patch]) -> Result<Vec<JointSpec>, Templa
     let mut out = Vec::new();
     for (j, joint) in layout.joints.iter().flatten().enumerate() {
         let label = joint.name.clone().unwrap_or_else(|| format!("[{j}]"));
-        let unknown = |what: &str, n: &str| TemplateError::BadJoint(format!("{label}: there is no {what} `{n}`"));
-        let nodes: Vec<u32> =
-            joint.nodes.iter().map(|n| find_node(n).ok_or_else(|| unknown("node", n))).collect::<Result<_, _>>()?;
+        let unknown =
+            |what: &str, n: &str| TemplateError::BadJoint(format!("{label}: there is no {what} `{n}`"));
+        let nodes: Vec<u32> = joint
+            .nodes
+            .iter()
+            .map(|n| find_node(n).ok_or_else(|| unknown("node", n)))
+            .collect::<Result<_, _>>()?;
         let mut chains: Vec<ChainSpec> = Vec::new();
         for name in &joint.surfaces {
             let surface = find_surface(name).ok_or_else(|| unknown("surface", name))?;
             let all = chains_of(&uses, surface as u32, &nodes, joint.closed);
             let taken = |c: &Vec<u32>| chains.iter().any(|k| k.surface == surface && k.nodes == *c);
             let Some(nodes) = all.into_iter().find(|c| !taken(c)) else {
-                let problem = format!("{label}: the surface `{name}` has no (further) chain of edges through these nodes");
+                let problem = format!(
+                    "{label}: the surface `{name}` has no (further) chain of edges through these nodes"
+                );
                 return Err(TemplateError::BadJoint(problem));
             };
             chains.push(ChainSpec { surface, nodes, closed: joint.closed });
@@ -188,7 +194,8 @@ fn explicit(layout: &Layout, patches: &[Patch]) -> Result<Vec<JointSpec>, Templa
 /// The chains of local nodes of one surface along given template nodes.
 fn chains_of(uses: &EdgeUses, surface: u32, nodes: &[u32], closed: bool) -> Vec<Vec<u32>> {
     let mut out: Vec<Vec<u32>> = Vec::new();
-    let pairs = nodes.windows(2).map(|w| [w[0], w[1]]).chain(closed.then(|| [nodes[nodes.len() - 1], nodes[0]]));
+    let pairs =
+        nodes.windows(2).map(|w| [w[0], w[1]]).chain(closed.then(|| [nodes[nodes.len() - 1], nodes[0]]));
     for (k, [a, b]) in pairs.enumerate() {
         let here: Vec<[u32; 2]> = uses
             .get(&[a.min(b), a.max(b)])

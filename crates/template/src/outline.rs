@@ -119,7 +119,8 @@ fn corners(nodes: &[u32], closed: bool, positions: &[DVec3]) -> Vec<u32> {
     let n = nodes.len();
     let place = |i: usize| positions[nodes[i % n] as usize];
     let inner = if closed { 0..n } else { 1..n.saturating_sub(1) };
-    inner.filter(|i| (place(*i) - place(i + n - 1)).angle_between(place(i + 1) - place(*i)) > CORNER)
+    inner
+        .filter(|i| (place(*i) - place(i + n - 1)).angle_between(place(i + 1) - place(*i)) > CORNER)
         .map(|i| nodes[i])
         .collect()
 }

@@ -25,13 +25,13 @@ pub(crate) fn feature_curve<'f>(
     name: &str,
     path: &str,
 ) -> Result<&'f FeatureCurve, TemplateError> {
-    features.curves.get(name).filter(|c| c.points.len() >= 2 && c.normals.len() == c.points.len()).ok_or_else(|| {
-        TemplateError::UnknownFeature {
+    features.curves.get(name).filter(|c| c.points.len() >= 2 && c.normals.len() == c.points.len()).ok_or_else(
+        || TemplateError::UnknownFeature {
             path: path.into(),
             feature: name.into(),
             known: format!("the curves {}", names(features.curves.keys())),
-        }
-    })
+        },
+    )
 }
 
 /// A place on a feature curve.
@@ -85,7 +85,11 @@ impl<'c> ArcLength<'c> {
         for k in 1..self.sums.len() {
             let (a, b) = (self.curve.points[k - 1], self.curve.points[k % n]);
             let d = b - a;
-            let t = if d.length_squared() > 0.0 { ((p - a).dot(d) / d.length_squared()).clamp(0.0, 1.0) } else { 0.0 };
+            let t = if d.length_squared() > 0.0 {
+                ((p - a).dot(d) / d.length_squared()).clamp(0.0, 1.0)
+            } else {
+                0.0
+            };
             let distance = (a + t * d - p).length_squared();
             if distance < best.0 {
                 best = (distance, self.sums[k - 1] + t * (self.sums[k] - self.sums[k - 1]));
@@ -125,11 +129,17 @@ pub(crate) struct Placing<'a> {
 
 impl<'a> Placing<'a> {
     /// Looks all features up once.
-    pub(crate) fn new(layout: &'a Layout, features: &'a Features, skin: &'a Skin<'a>) -> Result<Self, TemplateError> {
+    pub(crate) fn new(
+        layout: &'a Layout,
+        features: &'a Features,
+        skin: &'a Skin<'a>,
+    ) -> Result<Self, TemplateError> {
         let order = dependency_order(layout)?;
         let mut placing = Self { layout, features, skin, signs: vec![[1.0; 2]; layout.nodes.len()], order };
         for i in 0..layout.nodes.len() {
-            let (Some(source), Some(_)) = (layout.nodes[i].made_from, &layout.nodes[i].spec.at) else { continue };
+            let (Some(source), Some(_)) = (layout.nodes[i].made_from, &layout.nodes[i].spec.at) else {
+                continue;
+            };
             // The mirror image of "30 mm along the waist" is 30 mm against it when the waist runs on round the body.
             let (own, original) = (placing.frame(i)?, placing.frame(source as usize)?);
             let sign = |a: DVec3, b: DVec3| if mirror(b).dot(a) < 0.0 { -1.0 } else { 1.0 };
@@ -173,7 +183,13 @@ impl<'a> Placing<'a> {
         }
     }
 
-    fn slid(&self, node: usize, spec: &NodeSpec, slide: &Slide, frame: &Frame) -> Result<Frame, TemplateError> {
+    fn slid(
+        &self,
+        node: usize,
+        spec: &NodeSpec,
+        slide: &Slide,
+        frame: &Frame,
+    ) -> Result<Frame, TemplateError> {
         let path = format!("{}.slide", self.path(node));
         let curve = feature_curve(self.features, &slide.along, &path)?;
         let arc = ArcLength::new(curve);
@@ -190,11 +206,12 @@ impl<'a> Placing<'a> {
                     })?
                 } else {
                     let known = || format!("the points {}", names(self.features.points.keys()));
-                    let point = self.features.points.get(target).ok_or_else(|| TemplateError::UnknownFeature {
-                        path: path.clone(),
-                        feature: target.clone(),
-                        known: known(),
-                    })?;
+                    let point =
+                        self.features.points.get(target).ok_or_else(|| TemplateError::UnknownFeature {
+                            path: path.clone(),
+                            feature: target.clone(),
+                            known: known(),
+                        })?;
                     point.position
                 };
                 let way = arc.way(start, arc.nearest(place));
@@ -271,7 +288,10 @@ impl<'a> Placing<'a> {
                 let find = |n: &String| self.layout.nodes.iter().position(|m| m.name == *n);
                 let (a, b) = (find(&ends[0]), find(&ends[1]));
                 let (Some(a), Some(b)) = (a, b) else {
-                    return Err(TemplateError::format(format!("{}.between", self.path(node)), "unknown node"));
+                    return Err(TemplateError::format(
+                        format!("{}.between", self.path(node)),
+                        "unknown node",
+                    ));
                 };
                 let origin = done[a].lerp(done[b], spec.t.unwrap_or(0.5));
                 let normal = self.skin.look(origin).normal;
@@ -281,7 +301,10 @@ impl<'a> Placing<'a> {
                 let frame = self.frame(node)?;
                 let [first, second] = self.signs[node];
                 if (spec.first != 0.0 || spec.second != 0.0) && encode(&frame, frame.origin).is_none() {
-                    return Err(TemplateError::FlatFrame { path: self.path(node), feature: format!("{:?}", spec.at) });
+                    return Err(TemplateError::FlatFrame {
+                        path: self.path(node),
+                        feature: format!("{:?}", spec.at),
+                    });
                 }
                 let offset = Offset {
                     normal: scale * spec.normal,
@@ -313,7 +336,8 @@ impl<'a> Placing<'a> {
         let mut out = Placed { positions: vec![DVec3::ZERO; n], outward: vec![DVec3::ZERO; n] };
         for &node in &self.order {
             let i = node as usize;
-            let by = self.layout.nodes[i].spec.ease.as_ref().and_then(|e| push.get(e)).copied().unwrap_or(0.0);
+            let by =
+                self.layout.nodes[i].spec.ease.as_ref().and_then(|e| push.get(e)).copied().unwrap_or(0.0);
             (out.positions[i], out.outward[i]) = self.place(i, &out.positions, by)?;
             if !out.positions[i].is_finite() {
                 let problem = format!("{} is not finite on this body", self.path(i));
@@ -347,7 +371,8 @@ fn symmetrise(layout: &Layout, positions: &mut [DVec3]) {
 
 /// Nodes in an order in which `between` finds its ends done.
 fn dependency_order(layout: &Layout) -> Result<Vec<u32>, TemplateError> {
-    let index: BTreeMap<&str, usize> = layout.nodes.iter().enumerate().map(|(i, n)| (n.name.as_str(), i)).collect();
+    let index: BTreeMap<&str, usize> =
+        layout.nodes.iter().enumerate().map(|(i, n)| (n.name.as_str(), i)).collect();
     // 0 not seen, 1 being visited, 2 done
     let mut state = vec![0u8; layout.nodes.len()];
     let mut order = Vec::with_capacity(layout.nodes.len());
@@ -366,7 +391,10 @@ fn dependency_order(layout: &Layout) -> Result<Vec<u32>, TemplateError> {
                 stack.pop();
             } else if state[i] == 1 {
                 let message = "`between` goes round in a circle; give one of its nodes with `at`";
-                return Err(TemplateError::format(format!("nodes.{}.between", layout.nodes[i].name), message));
+                return Err(TemplateError::format(
+                    format!("nodes.{}.between", layout.nodes[i].name),
+                    message,
+                ));
             } else {
                 state[i] = 1;
                 stack.extend(open);

@@ -80,7 +80,8 @@ impl Refined {
             patches.iter().map(|p| p.nodes.iter().map(|n| Tag::Template(*n)).collect()).collect();
         let mut on_line = edges_on_lines(&body, &ids, patches, lines)?;
         let mut images = Images::new(layout, patches, &body, &ids);
-        let mut level_faces = vec![ids.iter().map(|id| body.surface(*id).faces().to_vec()).collect::<Vec<_>>()];
+        let mut level_faces =
+            vec![ids.iter().map(|id| body.surface(*id).faces().to_vec()).collect::<Vec<_>>()];
         let mut level_nodes = vec![patches.iter().map(|p| p.nodes.len()).collect::<Vec<_>>()];
         for _ in 0..levels {
             images.split(&body, &ids);
@@ -130,7 +131,18 @@ impl Refined {
                 twins[w] = NONE;
             }
         }
-        Ok(Self { body, ids, tags, weld, flat, welded_tags, twins, level_faces, level_nodes, edge_lines: on_line })
+        Ok(Self {
+            body,
+            ids,
+            tags,
+            weld,
+            flat,
+            welded_tags,
+            twins,
+            level_faces,
+            level_nodes,
+            edge_lines: on_line,
+        })
     }
 
     /// Faces of a surface over welded nodes, at the finest level.
@@ -173,7 +185,10 @@ fn edges_on_lines(
         for s in 0..n - usize::from(!line.closed) {
             let (a, b) = (line.nodes[s], line.nodes[(s + 1) % n]);
             if let Some((other, ..)) = spans.insert([a.min(b), a.max(b)], (l as u32, s as u32, a < b)) {
-                let message = format!("shares a template edge with the line `{}`; let one end where the other begins", line.name);
+                let message = format!(
+                    "shares a template edge with the line `{}`; let one end where the other begins",
+                    line.name
+                );
                 return Err(TemplateError::format(format!("lines.{}", lines[other as usize].name), message));
             }
         }
@@ -261,7 +276,8 @@ struct Images {
 
 impl Images {
     fn new(layout: &Layout, patches: &[Patch], body: &Body, ids: &[SurfaceId]) -> Self {
-        let surface: Vec<Option<usize>> = layout.surfaces.iter().map(|s| s.twin.map(|t| t as usize)).collect();
+        let surface: Vec<Option<usize>> =
+            layout.surfaces.iter().map(|s| s.twin.map(|t| t as usize)).collect();
         let sorted = |mut t: [u32; 3]| {
             t.sort_unstable();
             t

@@ -1,6 +1,6 @@
 //! Regeneration (T8): a template and a body in, a garment out, with no person in between.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
@@ -48,8 +48,14 @@ pub struct RegenerateOptions<'a> {
 const EASE_AIM: f64 = 1.5;
 /// An ease further off than this is reported, mm.
 const EASE_TOLERANCE: f64 = 10.0;
+/// After the search on the coarse garment, an ease this near is left alone on the fine one, mm.
+const FINE_AIM: f64 = 3.0;
 /// Rounds of the ease solver.
-const EASE_ROUNDS: usize = 9;
+const EASE_ROUNDS: usize = 12;
+/// Rounds on the fine garment after a search on the coarse one.
+const FINE_ROUNDS: usize = 3;
+/// A garment with as many faces is fine enough to measure girths on: some 60 chords round a hip, 0.3 mm short.
+const COARSE_FACES: usize = 1500;
 /// More template faces than this times four to the level are refused.
 const MOST_FACES: usize = 4_000_000;
 /// Each layer keeps this much more clearance than the one below, mm.
@@ -83,9 +89,52 @@ struct Level<'a> {
     wanted: f64,
     curve: &'a FeatureCurve,
     body: f64,
-    faces: Vec<[u32; 3]>,
+    surfaces: Vec<usize>,
     secant: Secant,
-    now: Option<f64>,
+}
+
+impl Level<'_> {
+    /// The faces that the tape goes round.
+    fn faces(&self, refined: &Refined) -> Vec<[u32; 3]> {
+        self.surfaces.iter().flat_map(|s| refined.welded_faces(*s)).collect()
+    }
+}
+
+/// Measures all levels and takes a secant step where one is off by more than `aim`; `true` when none is or none can move.
+fn step_eases(eases: &mut [Level], faces: &[Vec<[u32; 3]>], positions: &[DVec3], aim: f64) -> bool {
+    let mut settled = true;
+    for (level, faces) in eases.iter_mut().zip(faces) {
+        let Some(girth) = garment_girth(positions, faces, level.curve) else { continue };
+        let excess = girth - level.body - level.wanted;
+        if excess.abs() > aim {
+            settled &= !level.secant.step(excess);
+        }
+    }
+    settled
+}
+
+/// A garment at one fineness, with everything that is factored once.
+struct Stage<'a> {
+    refined: &'a Refined,
+    construction: Construction<'a>,
+    drape: Drape<'a>,
+}
+
+impl<'a> Stage<'a> {
+    fn new(
+        template: &'a Template,
+        lines: &'a [LayoutLine],
+        refined: &'a Refined,
+        skin: &'a Skin<'a>,
+        method: Method,
+    ) -> Result<Self, TemplateError> {
+        let layout = &template.layout;
+        let construction = Construction::new(layout, lines, refined, method)?;
+        let flaps = construction.flaps().copied().collect();
+        let (clearance, level) = node_wishes(layout, lines, refined, template.file().clearance);
+        let drape = Drape::new(refined, skin, flaps, clearance, level, layout.symmetric)?;
+        Ok(Self { refined, construction, drape })
+    }
 }
 
 /// Builds a template on a body.
@@ -120,54 +169,68 @@ pub fn regenerate(
     let levels = options.levels.unwrap_or(file.level).min(DEEPEST);
     let coarse: usize = patches.iter().map(|p| p.faces.len()).sum();
     if coarse.saturating_mul(1 << (2 * levels)) > MOST_FACES {
-        let message = format!("{levels} splits of {coarse} faces make more than {MOST_FACES} faces; use fewer");
+        let message =
+            format!("{levels} splits of {coarse} faces make more than {MOST_FACES} faces; use fewer");
         return Err(TemplateError::format("level", message));
     }
     let joint_specs = joints::joints(layout, &patches)?;
     let mut lines = layout.lines.clone();
     lines.extend(outline::missing_lines(layout, &patches, &joint_specs, &first.positions));
-    let mut refined = Refined::new(layout, &lines, &patches, &joint_specs, &first.positions, levels)?;
+    let build = |levels: u8| Refined::new(layout, &lines, &patches, &joint_specs, &first.positions, levels);
+    let mut refined = build(levels)?;
+    // Girths are searched on a coarser garment, where everything is cheap, and then put right on the fine one.
+    let coarse_level = (0..levels).find(|l| coarse << (2 * l) >= COARSE_FACES);
+    let coarse_refined = coarse_level.filter(|_| !layout.ease.is_empty()).map(build).transpose()?;
     seconds.topology = clock.stage(0.3, "factoring")?;
 
-    let construction = Construction::new(layout, &lines, &refined, options.method)?;
-    let flaps = construction.flaps().copied().collect();
-    let (clearance, level_nodes) = node_wishes(layout, &lines, &refined, file.clearance);
-    let mut drape = Drape::new(&refined, &skin, flaps, clearance, level_nodes, layout.symmetric)?;
+    let stage = |refined| Stage::new(template, &lines, refined, &skin, options.method);
+    let mut fine = stage(&refined)?;
+    let mut rough = coarse_refined.as_ref().map(stage).transpose()?;
     let crossings = Crossings::new(reference.mesh);
     seconds.factor = clock.stage(0.4, "fairing")?;
 
-    let mut eases = ease_levels(layout, reference.features, &refined, &mut warnings)?;
-    let mut round = 0;
-    let (positions, moved) = loop {
-        let push = eases.iter().map(|l| (l.name.to_string(), l.secant.push)).collect();
+    let mut eases = ease_levels(layout, reference.features, &mut warnings)?;
+    let build = |push: BTreeMap<String, f64>, stage: &Stage| {
         let placed = placing.place_all(&push)?;
-        let curves = construction.curves(&placed.positions, reference.features)?;
-        let mut positions = construction.positions(&placed.positions, &curves)?;
-        // While girths are searched, the rough contact is enough; the last time it is exact.
-        let mut moved = drape.push_out(&mut positions, 3, None)?;
-        let mut settled = true;
-        for level in &mut eases {
-            level.now = garment_girth(&positions, &level.faces, level.curve).map(|g| g - level.body);
-            let excess = level.now.map_or(0.0, |e| e - level.wanted);
-            if excess.abs() > EASE_AIM && round + 1 < EASE_ROUNDS {
-                settled &= !level.secant.step(excess);
+        let curves = stage.construction.curves(&placed.positions, reference.features)?;
+        stage.construction.positions(&placed.positions, &curves)
+    };
+    let pushes = |eases: &[Level]| eases.iter().map(|l| (l.name.to_string(), l.secant.push)).collect();
+    if let Some(rough) = &mut rough {
+        let faces: Vec<_> = eases.iter().map(|l| l.faces(rough.refined)).collect();
+        for round in 0..EASE_ROUNDS {
+            let mut positions = build(pushes(&eases), rough)?;
+            rough.drape.push_out(&mut positions, 4, None)?;
+            let settled = step_eases(&mut eases, &faces, &positions, EASE_AIM);
+            clock.stage(0.4 + 0.03 * round as f64, "finding the ease")?;
+            if settled {
+                break;
             }
         }
+        fine.drape.start_from(&rough.drape);
+    }
+    let faces: Vec<_> = eases.iter().map(|l| l.faces(fine.refined)).collect();
+    let rounds = if rough.is_some() { FINE_ROUNDS } else { EASE_ROUNDS };
+    let mut round = 0;
+    let (positions, moved) = loop {
+        let mut positions = build(pushes(&eases), &fine)?;
+        let mut moved = fine.drape.push_out(&mut positions, 3, None)?;
         round += 1;
-        clock.stage(0.4 + 0.05 * round as f64, "fairing")?;
-        if settled || round >= EASE_ROUNDS {
-            let more = drape.push_out(&mut positions, usize::MAX, Some(&crossings))?;
+        let settled = round >= rounds || step_eases(&mut eases, &faces, &positions, FINE_AIM);
+        clock.stage(0.7 + 0.03 * round as f64, "fairing")?;
+        if settled {
+            let more = fine.drape.push_out(&mut positions, usize::MAX, Some(&crossings))?;
             moved.iter_mut().zip(more).for_each(|(m, v)| *m += v);
-            if drape.mend(&mut positions, 0.5 * file.clearance.max(1.0)) > 0 {
+            if fine.drape.mend(&mut positions, 0.5 * file.clearance.max(1.0)) > 0 {
                 warnings.push("some nodes inside the body had to be moved to the skin one by one".into());
             }
             break (positions, moved);
         }
     };
-    let collision = drape.report(&positions, &moved, &crossings);
+    let collision = fine.drape.report(&positions, &moved, &crossings);
     let mut ease = BTreeMap::new();
-    for level in &eases {
-        let Some(girth) = garment_girth(&positions, &level.faces, level.curve) else { continue };
+    for (level, faces) in eases.iter().zip(&faces) {
+        let Some(girth) = garment_girth(&positions, faces, level.curve) else { continue };
         let got = girth - level.body;
         if (got - level.wanted).abs() > EASE_TOLERANCE {
             let text = format!("ease {}: {got:.0} mm instead of {:.0} mm", level.name, level.wanted);
@@ -182,8 +245,8 @@ pub fn regenerate(
             collision.nodes_inside, collision.faces_crossing
         ));
     }
-    drop(drape);
-    drop(construction);
+    drop(fine);
+    drop(rough);
     settle(&mut refined, &positions);
     seconds.shape = clock.stage(0.95, "naming")?;
 
@@ -225,7 +288,12 @@ fn check_reference(reference: &Reference) -> Result<(), TemplateError> {
 }
 
 /// Clearance of every welded node, and whether it keeps its height.
-fn node_wishes(layout: &Layout, lines: &[LayoutLine], refined: &Refined, clearance: f64) -> (Vec<f64>, Vec<bool>) {
+fn node_wishes(
+    layout: &Layout,
+    lines: &[LayoutLine],
+    refined: &Refined,
+    clearance: f64,
+) -> (Vec<f64>, Vec<bool>) {
     let count = refined.flat.len();
     let mut layer = vec![u8::MAX; count];
     for (s, weld) in refined.weld.iter().enumerate() {
@@ -248,7 +316,6 @@ fn node_wishes(layout: &Layout, lines: &[LayoutLine], refined: &Refined, clearan
 fn ease_levels<'a>(
     layout: &'a Layout,
     features: &'a Features,
-    refined: &Refined,
     warnings: &mut Vec<String>,
 ) -> Result<Vec<Level<'a>>, TemplateError> {
     let mut out = Vec::new();
@@ -256,22 +323,24 @@ fn ease_levels<'a>(
     for ease in &layout.ease {
         let name = ease.spec.curve.as_deref().unwrap_or(&ease.name);
         let curve = crate::place::feature_curve(features, name, &format!("ease.{}.curve", ease.name))?;
-        let chosen: BTreeSet<usize> = if ease.surfaces.is_empty() {
+        let surfaces: Vec<usize> = if ease.surfaces.is_empty() {
             (0..layout.surfaces.len()).filter(|s| layout.surfaces[*s].layer == lowest).collect()
         } else {
             ease.surfaces.iter().map(|s| *s as usize).collect()
         };
         if !layout.nodes.iter().any(|n| n.spec.ease.as_deref() == Some(&ease.name)) {
-            warnings.push(format!("ease {}: no node says `\"ease\": \"{}\"`, so nothing can move", ease.name, ease.name));
+            warnings.push(format!(
+                "ease {}: no node says `\"ease\": \"{}\"`, so nothing can move",
+                ease.name, ease.name
+            ));
         }
         out.push(Level {
             name: &ease.name,
             wanted: ease.spec.ease,
             curve,
             body: body_girth(curve),
-            faces: chosen.iter().flat_map(|s| refined.welded_faces(*s)).collect(),
+            surfaces,
             secant: Secant::new(),
-            now: None,
         });
     }
     Ok(out)

@@ -140,7 +140,11 @@ impl SparseFactor {
     ///
     /// # Errors
     /// [`FactorError::Singular`] when the matrix is not positive definite.
-    pub fn refactor(&mut self, values: impl Iterator<Item = f64>, diagonal: &[f64]) -> Result<(), FactorError> {
+    pub fn refactor(
+        &mut self,
+        values: impl Iterator<Item = f64>,
+        diagonal: &[f64],
+    ) -> Result<(), FactorError> {
         self.values.fill(0.0);
         for (slot, v) in self.pattern.slots.iter().zip(values) {
             self.values[*slot as usize] += v;

@@ -95,7 +95,9 @@ pub(crate) fn curve(
     if closed && !nodes.iter().any(|n| is_corner(*n)) {
         let points: Vec<DVec3> = nodes.iter().map(|n| place(*n)).collect();
         let spline = Spline::new(&points, true);
-        return (0..spans).map(|s| span_profile(&spline, s, points[s], points[(s + 1) % points.len()])).collect();
+        return (0..spans)
+            .map(|s| span_profile(&spline, s, points[s], points[(s + 1) % points.len()]))
+            .collect();
     }
     // A closed line with corners is a row of open ones that begins at a corner.
     let start = if closed { nodes.iter().position(|n| is_corner(*n)).unwrap_or(0) } else { 0 };
@@ -138,7 +140,11 @@ fn span_profile(spline: &Spline, span: usize, start: DVec3, end: DVec3) -> Profi
     Profile::new(points)
 }
 
-fn shaped(line: &LayoutLine, positions: &[DVec3], features: &Features) -> Result<Vec<Profile>, TemplateError> {
+fn shaped(
+    line: &LayoutLine,
+    positions: &[DVec3],
+    features: &Features,
+) -> Result<Vec<Profile>, TemplateError> {
     let place = |n: u32| positions[n as usize];
     let spans = line.nodes.len() - usize::from(!line.closed);
     let ends = |s: usize| (place(line.nodes[s]), place(line.nodes[(s + 1) % line.nodes.len()]));

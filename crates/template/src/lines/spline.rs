@@ -27,7 +27,8 @@ impl Spline {
             let step = (pair[1] - pair[0]).length().sqrt().max(1e-9);
             knots.push(knots[knots.len() - 1] + step);
         }
-        let bends = if closed && points.len() > 3 { periodic(&points, &knots) } else { natural(&points, &knots) };
+        let bends =
+            if closed && points.len() > 3 { periodic(&points, &knots) } else { natural(&points, &knots) };
         Self { knots, points, bends }
     }
 
