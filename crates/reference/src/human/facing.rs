@@ -11,7 +11,7 @@ use super::ring::depth_at;
 /// `h` is the stature of the person, also if the head is missing.
 pub(crate) fn votes(figure: &Figure<'_>, h: f64) -> f64 {
     let vote = |evidence: Option<f64>, clear: f64, weight: f64| {
-        evidence.map_or(0.0, |e| ({ eprint!("{:.4}/{clear} ", e / h); e } / (clear * h)).clamp(-1.0, 1.0) * weight)
+        evidence.map_or(0.0, |e| (e / (clear * h)).clamp(-1.0, 1.0) * weight)
     };
     let depths = |from: f64, to: f64| {
         let spans: Vec<[f64; 2]> = figure.between(from * h, to * h).iter().filter_map(midline).collect();
@@ -34,7 +34,6 @@ pub(crate) fn votes(figure: &Figure<'_>, h: f64) -> f64 {
     sum += vote(seat.zip(loin).map(|(s, l)| (l[0] - s[0]) - (s[1] - l[1])), 0.02, 1.0);
     sum += vote(hollow(figure.between(0.49 * h, 0.54 * h)), 0.008, 1.5).clamp(-1.5, 1.5);
     sum -= vote(hollow(figure.between(0.69 * h, 0.74 * h)), 0.012, 1.5);
-    eprintln!("TOTAL {sum}");
     sum
 }
 

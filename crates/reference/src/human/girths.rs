@@ -101,7 +101,7 @@ fn trunk_levels(figure: &Figure<'_>, marks: &Marks) -> Result<TrunkLevels, Strin
 fn waist(tapes: &[(f64, f64)], hip: f64, ceiling: f64, stature: f64) -> Option<f64> {
     let range: Vec<(f64, f64)> = tapes.iter().copied().filter(|t| t.0 > hip && t.0 <= ceiling).collect();
     let narrowest = range.iter().min_by(|a, b| a.1.total_cmp(&b.1))?.0;
-    let own = ramp(0.006 * stature, 0.016 * stature, ceiling - narrowest);
+    let own = ramp(0.001 * stature, 0.006 * stature, ceiling - narrowest);
     if own >= 1.0 {
         return Some(narrowest);
     }
@@ -216,13 +216,19 @@ impl TiltedPlane {
 
 /// Neck girth: below the larynx, in a plane that leans forward with the neck.
 fn neck(figure: &Figure<'_>, marks: &Marks, field: &NormalField) -> Option<FeatureCurve> {
-    let tilt = NECK_TILT.to_radians();
-    let plane = TiltedPlane::new(DVec3::new(0.0, tilt.cos(), tilt.sin()));
-    let mut centre = (marks.nape + marks.front_neck) / 2.0;
-    let above = marks.nape.y + 0.020 * marks.stature;
-    // A form may be cut off below: then just under its neck plate, whose front edge the leaning plane meets first.
-    let depth = (marks.front_neck.z - marks.nape.z) / 2.0;
-    centre.y = above.min(figure.height - depth * tilt.tan() - 4.0);
+    let (plane, centre) = match marks.neck_plate {
+        // A form that is cut off at the neck: just below its plate.
+        Some([front, back]) => {
+            let normal = (back - front).cross(DVec3::X).normalize();
+            (TiltedPlane::new(normal * normal.y.signum()), (front + back) / 2.0 - DVec3::Y * 4.0)
+        }
+        None => {
+            let tilt = NECK_TILT.to_radians();
+            let mut centre = (marks.nape + marks.front_neck) / 2.0;
+            centre.y = marks.nape.y + 0.020 * marks.stature;
+            (TiltedPlane::new(DVec3::new(0.0, tilt.cos(), tilt.sin())), centre)
+        }
+    };
     let section = plane_section(figure.mesh, centre, plane.normal);
     let rings = outer_rings(&section, 25.0, Gaps::Join, |p| plane.flat(p));
     let inside = plane.flat(centre);

@@ -20,6 +20,8 @@ pub(crate) struct Marks {
     pub(crate) joined: [f64; 2],
     /// Whether a flat plate ends the shoulder instead of an arm.
     pub(crate) plates: [bool; 2],
+    /// Front and back edge of the neck plate of a form without a head.
+    pub(crate) neck_plate: Option<[DVec3; 2]>,
     pub(crate) shoulder: [DVec3; 2],
     pub(crate) neck_side: [DVec3; 2],
     pub(crate) nape: DVec3,
@@ -56,8 +58,8 @@ pub(crate) fn find(figure: &Figure<'_>, warnings: &mut Vec<String>) -> Result<Ma
     let h = figure.height;
     let Crotch { point: crotch, level: crotch_level, legs } = crotch(figure, warnings);
     let head = has_head(figure);
-    let guess = stature_guess(figure);
-    let found = Side::BOTH.map(|s| armpit(figure, guess, s).or_else(|| plate(figure, guess, s)));
+    let stature = stature_guess(figure);
+    let found = Side::BOTH.map(|s| armpit(figure, stature, s).or_else(|| plate(figure, stature, s)));
     let armpits = match found {
         [Some(l), Some(r)] => [l, r],
         [Some(one), None] | [None, Some(one)] => {
@@ -70,9 +72,6 @@ pub(crate) fn find(figure: &Figure<'_>, warnings: &mut Vec<String>) -> Result<Ma
     };
     let (armpit, joined) = (armpits.map(|a| a.place), armpits.map(|a| a.joined));
     let armpit_y = (armpit[0].y + armpit[1].y) / 2.0;
-    // From crotch to armpit is 0.285 of the stature within 3 %.
-    let stature = if head { h } else { (armpit_y - crotch_level) / 0.285 };
-    eprintln!("head {head} guess {guess} stature {stature} crotch {crotch_level} armpit {armpit_y}");
     if !(0.62..0.85).contains(&(armpit_y / stature)) {
         return Err(format!(
             "the armpits would lie at {:.0} % of the height (people: 72 to 79 %)",
@@ -80,7 +79,8 @@ pub(crate) fn find(figure: &Figure<'_>, warnings: &mut Vec<String>) -> Result<Ma
         ));
     }
     let profile = Profile::new(figure, armpit_y - 0.12 * stature, (armpit_y + 0.19 * stature).min(0.995 * h));
-    let (nape, front_neck) = neck_marks(&profile, armpit_y, stature, head, warnings)?;
+    let NeckMarks { nape, front: front_neck, plate: neck_plate } =
+        neck_marks(&profile, armpit_y, stature, head, warnings)?;
     let plates = armpits.map(|a| a.plate_top.is_some());
     let neck_side = [
         neck_side(figure, nape, front_neck, stature, Side::Left),
@@ -105,6 +105,7 @@ pub(crate) fn find(figure: &Figure<'_>, warnings: &mut Vec<String>) -> Result<Ma
         armpit,
         joined,
         plates,
+        neck_plate,
         shoulder,
         neck_side,
         nape,
@@ -118,9 +119,9 @@ pub(crate) fn find(figure: &Figure<'_>, warnings: &mut Vec<String>) -> Result<Ma
     })
 }
 
-/// The stature, also of a form without a head: there, legs are 0.48 of the stature within 4 %.
+/// The stature, also of a form without a head: forms end at the neck, at 0.87 of the stature.
 pub(crate) fn stature_guess(figure: &Figure<'_>) -> f64 {
-    if has_head(figure) { figure.height } else { figure.levels[lowest_joined(figure)].y / 0.48 }
+    if has_head(figure) { figure.height } else { figure.height / 0.87 }
 }
 
 /// The lowest level, going down from the waist, that crosses the plane of symmetry.
@@ -162,15 +163,15 @@ fn crotch(figure: &Figure<'_>, warnings: &mut Vec<String>) -> Crotch {
                 torn = true;
             }
         }
-        if y < 0.42 * h {
-            // Thighs that touch join lower than the legs do; the bridge between them is shallower than the pelvis.
-            let deep = |l: &Level| {
-                l.trunk().is_some_and(|t| {
-                    depth_at(&t.points, 0.0).is_some_and(|[a, b]| b - a > 0.55 * (t.hi.y - t.lo.y))
-                })
-            };
-            if let Some(l) = figure.between(y, 0.53 * h).iter().find(|l| deep(l)) {
-                y = l.y;
+        // Thighs that touch join lower than the legs do; the bridge between them is shallow, the pelvis is deep at once.
+        let depth = |l: &Level| {
+            let t = l.trunk()?;
+            depth_at(&t.points, 0.0).map(|[back, front]| (front - back) / (t.hi.y - t.lo.y))
+        };
+        if !torn && depth(&figure.at(y + 0.007 * h)).is_some_and(|d| d < 0.22) {
+            let above = figure.between(y, 0.54 * h);
+            if let Some(l) = above.iter().find(|l| depth(l).is_some_and(|d| d > 0.36)) {
+                y = l.y - 0.004 * h;
                 warnings
                     .push("the thighs touch: the crotch was put where the pelvis becomes deep".to_owned());
             }
@@ -305,7 +306,8 @@ fn has_head(figure: &Figure<'_>) -> bool {
     let h = figure.height;
     let areas: Vec<f64> =
         figure.between(0.76 * h, 0.985 * h).iter().filter_map(|l| l.trunk().map(|t| t.area)).collect();
-    let chest = figure.between(0.5 * h, 0.8 * h).iter().filter_map(Level::trunk).map(|t| t.area).fold(0.0, f64::max);
+    let chest =
+        figure.between(0.5 * h, 0.8 * h).iter().filter_map(Level::trunk).map(|t| t.area).fold(0.0, f64::max);
     // The narrowest level that is not at the very top: a rounded head is narrow there, too.
     let neck = areas[..areas.len() * 4 / 5].iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1));
     neck.is_some_and(|(i, neck)| {
@@ -343,6 +345,13 @@ impl Profile {
     }
 }
 
+struct NeckMarks {
+    nape: DVec3,
+    front: DVec3,
+    /// Front and back edge of the neck plate of a form without a head.
+    plate: Option<[DVec3; 2]>,
+}
+
 /// Nape (seventh vertebra) and front neck point (pit above the breastbone).
 fn neck_marks(
     profile: &Profile,
@@ -350,10 +359,11 @@ fn neck_marks(
     stature: f64,
     head: bool,
     warnings: &mut Vec<String>,
-) -> Result<(DVec3, DVec3), String> {
+) -> Result<NeckMarks, String> {
     if profile.y.len() < 12 {
         return Err("there is no neck above the shoulders".to_owned());
     }
+    let mut plate = None;
     let mut top = profile.y[profile.y.len() - 1];
     if !head {
         // The neck plate, whose front edge is low, is not part of the neck's contour.
@@ -362,7 +372,13 @@ fn neck_marks(
             i -= 1;
         }
         // The contour is smoothed: stay clear of the edge.
-        top = profile.y[i.saturating_sub(2)];
+        i = i.saturating_sub(2);
+        top = profile.y[i];
+        let last = profile.y.len() - 1;
+        plate = Some([
+            DVec3::new(0.0, top, profile.front[i]),
+            DVec3::new(0.0, profile.y[last], profile.back[last]),
+        ]);
     }
     let nape_y = if head {
         // The nape lies below the deepest place of the neck's hollow by 4.9 % of the stature (within 5 mm).
@@ -392,7 +408,7 @@ fn neck_marks(
         }
     }
     let y = best.1;
-    Ok((nape, DVec3::new(0.0, y, profile.at(&profile.front, y))))
+    Ok(NeckMarks { nape, front: DVec3::new(0.0, y, profile.at(&profile.front, y)), plate })
 }
 
 /// Side of the neck base: a little above the nape, on the outline of the neck.

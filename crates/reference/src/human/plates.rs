@@ -1,5 +1,7 @@
 //! Arm plates of dress forms: flat ends where arms would be.
 
+use std::collections::BTreeMap;
+
 use mesh_kernel::TriMesh;
 use mesh_kernel::glam::DVec3;
 
@@ -54,7 +56,7 @@ pub(crate) fn arm_plate(mesh: &TriMesh, side: Side, low: f64, high: f64, stature
     let normal = first.iter().map(|f| f.normal * f.area).sum::<DVec3>().normalize();
     let area: f64 = first.iter().map(|f| f.area).sum();
     let point = first.iter().map(|f| f.centre * f.area).sum::<DVec3>() / area;
-    let patch = gather(normal, point, 0.995, 2.0);
+    let patch = connected(mesh, gather(normal, point, 0.995, 2.0));
     if patch.iter().map(|f| f.area).sum::<f64>() < 0.0009 * stature * stature {
         return None;
     }
@@ -68,4 +70,39 @@ pub(crate) fn arm_plate(mesh: &TriMesh, side: Side, low: f64, high: f64, stature
     };
     let (top, bottom) = (end(1.0), end(-1.0));
     (top.y - bottom.y > 0.035 * stature).then_some(ArmPlate { top, bottom })
+}
+
+/// The largest part of a patch that hangs together by nodes.
+fn connected<'a>(mesh: &TriMesh, patch: Vec<&'a Facet>) -> Vec<&'a Facet> {
+    let mut at_node: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+    for (i, f) in patch.iter().enumerate() {
+        for v in mesh.faces[f.face as usize] {
+            at_node.entry(v).or_default().push(i);
+        }
+    }
+    let mut part = vec![usize::MAX; patch.len()];
+    let mut best = (0.0, 0);
+    for start in 0..patch.len() {
+        if part[start] != usize::MAX {
+            continue;
+        }
+        part[start] = start;
+        let mut stack = vec![start];
+        let mut area = 0.0;
+        while let Some(i) = stack.pop() {
+            area += patch[i].area;
+            for v in mesh.faces[patch[i].face as usize] {
+                for &j in &at_node[&v] {
+                    if part[j] == usize::MAX {
+                        part[j] = start;
+                        stack.push(j);
+                    }
+                }
+            }
+        }
+        if area > best.0 {
+            best = (area, start);
+        }
+    }
+    patch.into_iter().zip(part).filter(|(_, p)| *p == best.1).map(|(f, _)| f).collect()
 }
