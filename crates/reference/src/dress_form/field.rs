@@ -131,7 +131,7 @@ impl Field {
         let (front, back) = hills(m, &levels);
 
         // Neck: leans forward; the fillet at its foot makes the neck base.
-        let neck_radius = 0.87 * m.neck * 10.0 / std::f64::consts::TAU;
+        let neck_radius = 0.84 * m.neck * 10.0 / std::f64::consts::TAU;
         let lean = 0.27_f64;
         let neck_axis = DVec3::new(0.0, lean.cos(), lean.sin());
         let neck_foot = 0.5 * (levels.nape + levels.front_neck);
@@ -236,8 +236,9 @@ impl Field {
         let skin = ribs.front_at(x);
         const SINK: f64 = 0.42;
         let shape = |rise: f64| {
-            let depth = rise / (1.0 - SINK);
-            (skin - SINK * depth, depth)
+            // A small breast is the cap of an ellipsoid that lies deeper.
+            let depth = (rise / (1.0 - SINK)).max(0.5 * side);
+            (skin + rise - depth, depth)
         };
         // The tape at height y over ribs and breasts with upper half axis `upper`.
         let girth_at = |rise: f64, y: f64, upper: f64| {

@@ -52,10 +52,10 @@ pub struct Levels {
 /// where that survey has none, of the CC0 MakeHuman base mesh. Children: growth moves the trunk's marks up (Snyder et
 /// al. 1977, UMTRI child anthropometry); a line between statures of 80 and 150 cm.
 fn shares(figure: Figure, stature_cm: f64) -> [f64; 11] {
-    const WOMAN: [f64; 11] = [0.846, 0.8385, 0.822, 0.817, 0.757, 0.725, 0.690, 0.622, 0.511, 0.470, 0.280];
-    const MAN: [f64; 11] = [0.850, 0.843, 0.825, 0.824, 0.760, 0.737, 0.690, 0.614, 0.519, 0.480, 0.285];
+    const WOMAN: [f64; 11] = [0.846, 0.8405, 0.822, 0.817, 0.757, 0.725, 0.690, 0.622, 0.511, 0.470, 0.280];
+    const MAN: [f64; 11] = [0.850, 0.848, 0.825, 0.824, 0.760, 0.737, 0.690, 0.614, 0.519, 0.480, 0.285];
     const TODDLER: [f64; 11] = [0.806, 0.799, 0.783, 0.776, 0.716, 0.690, 0.650, 0.575, 0.434, 0.386, 0.235];
-    const YOUTH: [f64; 11] = [0.841, 0.834, 0.818, 0.813, 0.754, 0.730, 0.685, 0.618, 0.511, 0.469, 0.280];
+    const YOUTH: [f64; 11] = [0.841, 0.836, 0.818, 0.813, 0.754, 0.730, 0.685, 0.618, 0.511, 0.469, 0.280];
     match figure {
         Figure::Woman => WOMAN,
         Figure::Man => MAN,

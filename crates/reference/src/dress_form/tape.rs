@@ -95,8 +95,8 @@ pub(super) fn level_extremes(half: &Patch, field: &Field, m: &Resolved) -> Curve
     let measured = girths(half, &heights);
     let arc = |y: f64, level: f64| 0.5 * BEND * (y - level).powi(2);
     // The ribs above a waist that is no narrower may be narrower again: there the waist is the least up to the lowest roll.
-    let ribs = levels.waist + 0.6 * (levels.underbust - levels.waist);
-    let waist_end = if m.underbust > m.waist { levels.underbust } else { ribs };
+    let ribs = levels.waist + 0.55 * (levels.underbust - levels.waist);
+    let underbust = 10.0 * m.underbust;
     let mut points: Vec<(f64, f64)> = heights
         .iter()
         .zip(&measured)
@@ -110,9 +110,13 @@ pub(super) fn level_extremes(half: &Patch, field: &Field, m: &Resolved) -> Curve
             if y > levels.underbust && y < levels.armpit - UNDERARM * h && m.bust > m.underbust {
                 goal = goal.min(bust - arc(y, levels.bust));
             }
-            if y > levels.hip && y < waist_end && waist < hip {
-                let ceiling = if y > levels.waist { (10.0 * m.underbust).max(waist) } else { hip };
-                goal = goal.max((waist + arc(y, levels.waist)).min(ceiling));
+            if y > levels.hip && y < levels.underbust && waist < hip {
+                let floor = match (y > levels.waist, y > ribs) {
+                    (false, _) => (waist + arc(y, levels.waist)).min(hip),
+                    (true, false) => (waist + arc(y, levels.waist)).min(underbust.max(waist)),
+                    (true, true) => (waist + arc(y, levels.waist)).min(underbust),
+                };
+                goal = goal.max(floor);
             }
             (y, if got > 0.0 { f * goal / got } else { f })
         })
