@@ -46,6 +46,9 @@ pub(crate) struct FlatPatch {
     pub(crate) report: PieceReport,
 }
 
+/// Mean change of area above which cloth is unlikely to follow.
+const MEAN_AREA_CHANGE: f64 = 0.01;
+
 /// A kept hole that costs more stretch than this is cut open after all.
 const POOR_STRETCH: f64 = 0.01;
 
@@ -90,11 +93,12 @@ pub(crate) fn flatten(input: &PatternInput, options: &PatternOptions) -> Result<
                 patch.name, flat.report.overlaps
             ));
         }
-        if flat.report.max_stretch > 0.25 {
+        if flat.report.mean_area_change > MEAN_AREA_CHANGE {
             warnings.push(format!(
-                "piece {:?} stretches by up to {:.0} %: a dart or another seam would help",
+                "piece {:?}: areas change by {:.1} % on average, the surface is too curved for one flat piece; a dart \
+                 or another seam would help",
                 patch.name,
-                100.0 * flat.report.max_stretch
+                100.0 * flat.report.mean_area_change
             ));
         }
     }
