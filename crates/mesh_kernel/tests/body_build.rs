@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 use mesh_kernel::body::{
-    Body, BuildError, ChainSpec, DirectedEdge, JointId, JointSpec, NodeId, Side, SurfaceId, SurfaceSpec,
+    AddError, Body, BuildError, ChainSpec, DirectedEdge, FaceId, JointId, JointSpec, NodeId, Side, SurfaceId, SurfaceSpec,
 };
 use mesh_kernel::glam::DVec3;
 use mesh_kernel::{Group, TriMesh};
@@ -244,4 +244,73 @@ fn boundary_chains_run_with_the_surface_on_their_left() {
     assert_eq!(s.loop_nodes(mesh_kernel::body::LoopId(0)), [0, 1, 2, 3]);
     let e = s.find_edge(NodeId(1), NodeId(0)).unwrap();
     assert_eq!(s.ends(DirectedEdge::new(e, false)), [NodeId(0), NodeId(1)]);
+}
+
+#[test]
+fn a_body_built_up_step_by_step_is_sound_at_every_step() {
+    let mut body = Body::default();
+    let sound = |body: &Body, shape: [i64; 3]| {
+        assert_eq!(body.check(), []);
+        let counts = body.counts();
+        assert_eq!([counts.c, counts.ch, counts.cc], shape, "{counts}");
+    };
+    sound(&body, [0, 0, 0]);
+    let a = body.add_surface("a");
+    let nodes: Vec<NodeId> = [DVec3::ZERO, DVec3::Z, DVec3::X, DVec3::X + DVec3::Z, DVec3::X * 2.0]
+        .map(|p| body.add_node(a, p).unwrap())
+        .to_vec();
+    sound(&body, [5, 0, 0]);
+    // A wire frame of a square with a diagonal, and a tail.
+    for (p, q) in [(0, 1), (1, 3), (3, 2), (2, 0), (0, 3), (2, 4)] {
+        body.add_edge(a, nodes[p], nodes[q]).unwrap();
+    }
+    sound(&body, [1, 2, 0]);
+    assert!(matches!(body.add_edge(a, nodes[1], nodes[0]), Err(AddError::EdgeExists { .. })));
+    body.add_face(a, [nodes[0], nodes[1], nodes[3]]).unwrap();
+    sound(&body, [1, 1, 0]);
+    assert!(matches!(body.add_face(a, [nodes[0], nodes[1], nodes[2]]), Err(AddError::SideTaken { .. })));
+    body.add_face(a, [nodes[0], nodes[3], nodes[2]]).unwrap();
+    sound(&body, [1, 0, 0]);
+    assert_eq!(body.surface(a).loops().len(), 1);
+    // Faces that meet at a node only.
+    let far = [DVec3::X * 3.0, DVec3::X * 3.0 + DVec3::Z].map(|p| body.add_node(a, p).unwrap());
+    body.add_face(a, [nodes[4], far[0], far[1]]).unwrap();
+    sound(&body, [1, 0, 0]);
+    assert_eq!(body.surface(a).loops().len(), 2);
+    // Joints: a boundary edge with a wire of another surface, then a flap.
+    let b = body.add_surface("b");
+    for p in [DVec3::ZERO, DVec3::Z, DVec3::Y] {
+        body.add_node(b, p).unwrap();
+    }
+    body.add_edge(b, NodeId(0), NodeId(1)).unwrap();
+    let before = body.clone();
+    let wrong = JointSpec { name: None, chains: vec![chain(0, &[0, 1]), chain(1, &[1, 0])] };
+    assert!(matches!(body.add_joint(&wrong), Err(BuildError::NodesApart { .. })));
+    assert_eq!(body, before);
+    let mut with_face = body.clone();
+    with_face.add_face(b, [NodeId(1), NodeId(0), NodeId(2)]).unwrap();
+    let right = JointSpec { name: None, chains: vec![chain(0, &[0, 1]), chain(1, &[0, 1])] };
+    for (mut body, sheets) in [(body, 1), (with_face, 2)] {
+        body.add_joint(&right).unwrap();
+        sound(&body, [if sheets == 1 { 2 } else { 1 }, 0, 0]);
+        assert_eq!(body.joint(JointId(0)).radial().len(), sheets);
+        if sheets == 1 {
+            let refused = body.add_face(b, [NodeId(1), NodeId(0), NodeId(2)]);
+            assert!(matches!(refused, Err(AddError::EdgeOnJoint { .. })));
+        }
+        let face = FaceId(body.surface(a).faces().len() as u32 - 1);
+        body.split_face(a, face).unwrap();
+        body.split_face(a, FaceId(0)).unwrap();
+        body.split_all(None).unwrap();
+        sound(&body, [if sheets == 1 { 2 } else { 1 }, 0, 0]);
+    }
+}
+
+#[test]
+fn a_joint_added_is_a_joint_built() {
+    let flaps = [DVec3::X, DVec3::Y, DVec3::NEG_X].map(|o| flap("f", o));
+    let spec = joint((0..3).map(|s| chain(s, &[0, 1])).collect());
+    let mut body = Body::build(&flaps, &[]).unwrap();
+    body.add_joint(&spec).unwrap();
+    assert_eq!(body, Body::build(&flaps, &[spec]).unwrap());
 }

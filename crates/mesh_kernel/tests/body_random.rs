@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 use mesh_kernel::body::{
-    AttributeEdge, AttributeNode, AttributeNodeId, Body, ChainSpec, EdgeId, FaceId, JointSpec, SurfaceId,
+    AttributeEdge, AttributeNode, AttributeNodeId, Body, ChainSpec, EdgeId, FaceId, JointSpec, NodeId, SurfaceId,
     SurfaceSpec,
 };
 use mesh_kernel::glam::DVec3;
@@ -194,6 +194,25 @@ fn random_body(kind: u8, seed: u64) -> Body {
     }
 }
 
+/// What an incomplete surface may hold besides faces: a node that stands alone, a wire between new nodes, one to an old node.
+fn add_wires(body: &mut Body, random: &mut Random) {
+    let id = SurfaceId(random.below(body.surfaces().len().max(1)) as u32);
+    if body.surfaces().len() == 0 {
+        return;
+    }
+    let old = body.surface(id).positions().len();
+    let place = |random: &mut Random| DVec3::new(random.unit(), random.unit(), random.unit()) * 9.0 + 20.0;
+    let [a, b, c] = [(); 3].map(|()| body.add_node(id, place(random)).unwrap());
+    body.add_edge(id, a, b).unwrap();
+    if old > 0 {
+        let tail = body.add_edge(id, NodeId(random.below(old) as u32), c).unwrap();
+        let s = body.surface_mut(id);
+        let [p, q] = [0.25, 0.75]
+            .map(|u| s.add_attribute_node(AttributeNode::OnEdge { edge: tail, u }).unwrap());
+        s.add_attribute_edge(AttributeEdge { name: None, nodes: vec![p, q] }).unwrap();
+    }
+}
+
 /// Attribute nodes and lines at random places; returns nothing to remember but what `places` reads.
 fn add_attributes(body: &mut Body, random: &mut Random) {
     for id in body.surface_ids() {
@@ -290,6 +309,7 @@ proptest! {
         let mut random = Random(seed ^ 0x5eed);
         let mut body = random_body(kind, seed);
         add_attributes(&mut body, &mut random);
+        add_wires(&mut body, &mut random);
         let mut watched = Watched::new(body);
         for step in steps {
             let body = &mut watched.body;

@@ -183,10 +183,14 @@ impl Surface {
                 return Some(Carrier::Face(f));
             }
         }
-        if let (AttributeNode::OnEdge { edge: p, .. }, AttributeNode::OnEdge { edge: q, .. }) = (a, b)
-            && p == q
-        {
-            return Some(Carrier::Edge(p.0));
+        // An edge without faces carries what lies on it, its ends included.
+        for (x, y) in [(a, b), (b, a)] {
+            if let AttributeNode::OnEdge { edge, .. } = *y {
+                let same = matches!(x, AttributeNode::OnEdge { edge: other, .. } if *other == edge);
+                if same || self.at_node(x).is_some_and(|v| self.edges[edge.index()].contains(&v)) {
+                    return Some(Carrier::Edge(edge.0));
+                }
+            }
         }
         let (Some(p), Some(q)) = (self.at_node(a), self.at_node(b)) else { return None };
         let e = index.get_or_init(|| self.edge_index()).find(p, q)?;

@@ -280,7 +280,7 @@ impl Body {
     }
 
     /// Makes nodes that joints hold together equal, where they are within [`JOINT_SNAP`].
-    fn meet(&mut self, labels: &[JointLabel]) -> Result<(), BuildError> {
+    pub(super) fn meet(&mut self, labels: &[JointLabel]) -> Result<(), BuildError> {
         for (j, label) in labels.iter().enumerate() {
             let joint = JointId(j as u32);
             let first_use = self.joints[j].uses[0];
@@ -344,7 +344,7 @@ fn conflict(spec: &SurfaceSpec, c: super::adjacency::SideConflict) -> BuildError
     BuildError::EdgeConflict { surface: spec.name.clone(), faces: [c.same_way, c.face], nodes }
 }
 
-fn run_of(
+pub(super) fn run_of(
     surface: &Surface,
     index: &super::adjacency::EdgeIndex,
     chain: &ChainSpec,
@@ -368,14 +368,14 @@ fn run_of(
 }
 
 /// Which loop every edge is on and where.
-struct LoopPlaces {
+pub(super) struct LoopPlaces {
     of_edge: Vec<u32>,
     at: Vec<u32>,
     lengths: Vec<u32>,
 }
 
 impl LoopPlaces {
-    fn new(edges: usize, cycles: &[Vec<DirectedEdge>]) -> Self {
+    pub(super) fn new(edges: usize, cycles: &[Vec<DirectedEdge>]) -> Self {
         let (mut of_edge, mut at) = (vec![NONE; edges], vec![0; edges]);
         for (l, cycle) in cycles.iter().enumerate() {
             for (i, d) in cycle.iter().enumerate() {
@@ -388,7 +388,7 @@ impl LoopPlaces {
 }
 
 /// Makes a chain of a run: in its loop's direction where it is on one, as given where it is inside.
-fn place_run(
+pub(super) fn place_run(
     surface: &mut Surface,
     places: &LoopPlaces,
     run: Run,
@@ -452,7 +452,7 @@ fn place_run(
 }
 
 /// Cuts a boundary cycle into the chains of joints and, between them, free chains.
-fn make_loop(surface: &mut Surface, cycle: &[DirectedEdge]) {
+pub(super) fn make_loop(surface: &mut Surface, cycle: &[DirectedEdge]) {
     let id = LoopId(surface.loops.len() as u32);
     let chain_at = |surface: &Surface, i: usize| surface.edge_chain(cycle[i].edge());
     // Start where a joint's chain starts, so that no chain is cut by the start of the cycle.

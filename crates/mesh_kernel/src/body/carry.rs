@@ -82,6 +82,15 @@ fn along(a: [f64; 3], b: [f64; 3], p: [f64; 3]) -> f64 {
 }
 
 impl Surface {
+    /// Whether two attribute nodes lie on different halves of an edge that carries both, neither in its middle.
+    fn straddles_middle(&self, a: &AttributeNode, b: &AttributeNode, e: u32) -> bool {
+        let parameter = |n: &AttributeNode| match *n {
+            AttributeNode::OnEdge { edge, u } if edge.0 == e => Some(u),
+            _ => self.at_node(n).map(|v| if v == self.edges[e as usize][0] { 0.0 } else { 1.0 }),
+        };
+        matches!((parameter(a), parameter(b)), (Some(u), Some(w)) if (u - 0.5) * (w - 0.5) < 0.0)
+    }
+
     /// Moves attributes to the parts of their hosts, before the surface itself is changed.
     ///
     /// `halves` gives the two edges, in its direction, that an edge is halved into, `pieces` what a face is cut into;
@@ -101,7 +110,19 @@ impl Surface {
                 nodes.push(n);
                 let Some(&next) = line.nodes.get(i + 1) else { break };
                 let [a, b] = [n, next].map(|n| &old[n.index()]);
-                let Some(Carrier::Face(f)) = self.carrier(a, b, &index) else { continue };
+                let f = match self.carrier(a, b, &index) {
+                    Some(Carrier::Face(f)) => f,
+                    Some(Carrier::Edge(e)) => {
+                        if let Some([first, _]) = halves(e)
+                            && self.straddles_middle(a, b, e)
+                        {
+                            nodes.push(AttributeNodeId((old.len() + added.len()) as u32));
+                            added.push(AttributeNode::OnEdge { edge: first, u: 1.0 });
+                        }
+                        continue;
+                    }
+                    None => continue,
+                };
                 let Some(piece) = pieces(f) else { continue };
                 let (Some(p), Some(q)) = (self.areal_in(a, f), self.areal_in(b, f)) else { continue };
                 for node in piece.crossings(p, q) {

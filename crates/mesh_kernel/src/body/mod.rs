@@ -40,6 +40,7 @@ mod free_boundary;
 mod from_tri_mesh;
 mod homology;
 mod ids;
+mod incomplete;
 mod joint;
 mod radial;
 mod radial_order;
@@ -61,6 +62,7 @@ pub use ids::{
     AttributeEdgeId, AttributeNodeId, ChainId, DirectedEdge, EdgeId, FaceId, JointId, LoopId, NONE, NodeId,
     SurfaceId,
 };
+pub use incomplete::AddError;
 pub use joint::{Joint, JointUse, Sheet, Side};
 pub use regions::{Crossing, FaceSide, Region, Regions, Sector};
 pub use split_all::{SplitError, SplitMap, SurfaceSplit};
