@@ -29,7 +29,7 @@ pub struct RenderOptions {
     pub occlusion: Option<Occlusion>,
     /// A floor under the lowest point that shows the model's soft shadow (with `occlusion`, seen from above).
     pub floor: bool,
-    /// Lines and points up to this many millimetres behind a surface still count as on it; `None`: 1/1200 of the
+    /// Lines and points up to this many millimetres behind a surface still count as on it; `None`: 1/4000 of the
     /// scene's diagonal.
     pub line_bias: Option<f64>,
     /// Enlarges text, lines and points.
@@ -174,7 +174,7 @@ pub fn render(scene: &Scene, camera: &Camera, options: &RenderOptions) -> Result
         }
     });
     let mut image = Image::from_rgb(options.width, options.height, rgb);
-    let bias = options.line_bias.unwrap_or(diagonal / 1200.0);
+    let bias = options.line_bias.unwrap_or(diagonal / 4000.0);
     let depth = lines::Depth { nearness: &visible.nearness, width, height, projector: &projector, bias };
     lines::draw(&mut image, scene, &depth, options);
     labels::draw(&mut image, scene, &depth, options);

@@ -10,7 +10,7 @@ use crate::fixtures::{ball, dress, form};
 /// Runs a batch with small outputs.
 fn batch(bodies: &Path, out: &Path, more: &[&str]) -> Outcome {
     let words =
-        ["batch", word(&dress()), "--bodies", word(bodies), "--out", word(out), "--json"].map(str::to_owned);
+        ["batch", word(dress()), "--bodies", word(bodies), "--out", word(out), "--json"].map(str::to_owned);
     let settings = ["--formats", "obj", "--levels", "2"].map(str::to_owned);
     let more: Vec<String> = more.iter().map(|w| (*w).to_owned()).collect();
     toile(&[&words[..], &settings, &more].concat())

@@ -9,9 +9,8 @@ use crate::fixtures::{ball, dress, form, three_sheets};
 fn readers(mesh: &Path, out: &Path) -> Vec<Vec<String>> {
     let own = |words: &[&str]| words.iter().map(|w| (*w).to_owned()).collect::<Vec<_>>();
     let (mesh, at) = (word(mesh), |name: &str| out.join(name).to_str().unwrap().to_owned());
-    let dress = dress();
     vec![
-        own(&["regenerate", word(&dress), "--body", mesh, "--out", &at("garment")]),
+        own(&["regenerate", word(dress()), "--body", mesh, "--out", &at("garment")]),
         own(&["features", mesh, "-o", &at("features.json"), "--picture", &at("features.png")]),
         own(&["check", mesh]),
         own(&["info", mesh]),
@@ -98,8 +97,7 @@ fn truncated_files_of_every_format() {
     // An OBJ says nothing about its length: cut inside a number or a face, it must be noticed or be no body.
     let bytes = std::fs::read(form()).unwrap();
     let cut = folder.write("cut.obj", &bytes[..bytes.len() / 3]);
-    let dress = dress();
-    toile(&["regenerate", word(&dress), "--body", word(&cut), "--out", word(&folder.join("o"))])
+    toile(&["regenerate", word(dress()), "--body", word(&cut), "--out", word(&folder.join("o"))])
         .refused(1, "cut.obj");
     assert_eq!(list(&folder.join("o")), Vec::<String>::new());
 }
@@ -140,7 +138,7 @@ fn a_ball_is_no_body() {
     let features = folder.join("features.json");
     toile(&["features", word(&ball), "-o", word(&features)]).refused(1, "ball.obj");
     let out = folder.join("out");
-    toile(&["regenerate", word(&dress()), "--body", word(&ball), "--out", word(&out)]).refused(1, "ball.obj");
+    toile(&["regenerate", word(dress()), "--body", word(&ball), "--out", word(&out)]).refused(1, "ball.obj");
     assert_eq!(folder.list(), ["ball.obj"], "nothing is left behind");
 }
 
@@ -171,17 +169,8 @@ fn a_place_that_cannot_be_written() {
     let folder = Folder::new("unwritable");
     let file = folder.write("file", "in the way");
     let under = file.join("out");
-    toile(&[
-        "regenerate",
-        word(&dress()),
-        "--body",
-        word(form()),
-        "--out",
-        word(&under),
-        "--formats",
-        "json",
-    ])
-    .refused(1, "");
+    toile(&["regenerate", word(dress()), "--body", word(form()), "--out", word(&under), "--formats", "json"])
+        .refused(1, "");
     toile(&["render", word(form()), "-o", word(&under.join("a.png")), "--size", "32x32"]).refused(1, "");
     toile(&["features", word(form()), "-o", word(&under.join("f.json"))]).refused(1, "");
     assert_eq!(std::fs::read(&file).unwrap(), b"in the way");

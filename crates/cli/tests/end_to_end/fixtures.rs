@@ -27,8 +27,9 @@ pub(crate) fn templates() -> Vec<PathBuf> {
 }
 
 /// The dress template.
-pub(crate) fn dress() -> PathBuf {
-    root().join("samples/princess-dress.json")
+pub(crate) fn dress() -> &'static Path {
+    static DRESS: OnceLock<PathBuf> = OnceLock::new();
+    DRESS.get_or_init(|| root().join("samples/princess-dress.json"))
 }
 
 /// A dress form of an average woman, made once by the binary.

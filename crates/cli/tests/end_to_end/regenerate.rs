@@ -173,7 +173,7 @@ fn only_the_asked_formats_are_written() {
     let folder = Folder::new("formats");
     let run = |formats: &str, out: &Path| {
         let words =
-            ["regenerate", word(&dress()), "--body", word(form()), "--out", word(out), "--formats", formats];
+            ["regenerate", word(dress()), "--body", word(form()), "--out", word(out), "--formats", formats];
         toile(&[&words[..], &["--levels", "2"]].concat()).succeeded();
     };
     let out = folder.join("some");
@@ -204,7 +204,7 @@ fn levels_and_size_names_do_what_they_say() {
     let run = |levels: &str| {
         let out = folder.join(levels);
         let words =
-            ["regenerate", word(&dress()), "--body", word(form()), "--out", word(&out), "--levels", levels];
+            ["regenerate", word(dress()), "--body", word(form()), "--out", word(&out), "--levels", levels];
         let report =
             toile(&[&words[..], &["--formats", "dxf", "--sample-size", "SAMPLE 7", "--json"]].concat());
         let report = report.succeeded().json();
@@ -221,7 +221,7 @@ fn a_regenerated_design_is_a_template_again() {
     let folder = Folder::new("again");
     let first = folder.join("first");
     let words = ["--formats", "toile,json", "--levels", "2"];
-    let call = ["regenerate", word(&dress()), "--body", word(form()), "--out", word(&first)];
+    let call = ["regenerate", word(dress()), "--body", word(form()), "--out", word(&first)];
     toile(&[&call[..], &words].concat()).succeeded();
     assert!(first.join("design.toile").is_file());
 }

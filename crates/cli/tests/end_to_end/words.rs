@@ -54,8 +54,7 @@ fn unknown_and_missing_words_are_refused() {
 fn words_that_only_the_program_can_judge_are_refused_too() {
     let folder = Folder::new("judged-words");
     let form = word(form());
-    let dress = dress();
-    let dress = word(&dress);
+    let dress = word(dress());
     let out = folder.join("out");
     for shard in ["0/3", "4/3", "1/0", "1", "a/b", "1/2/3", "-1/2"] {
         let shard = format!("--shard={shard}");
