@@ -344,9 +344,7 @@ impl<'a> Placing<'a> {
                 return Err(TemplateError::BadReference(problem));
             }
         }
-        if self.layout.symmetric {
-            symmetrise(self.layout, &mut out.positions);
-        }
+        symmetrise(self.layout, &mut out.positions);
         Ok(out)
     }
 }
@@ -355,8 +353,11 @@ fn mirror(p: DVec3) -> DVec3 {
     DVec3::new(-p.x, p.y, p.z)
 }
 
-/// Makes each node the mirror image of its twin, to the bit, and centre nodes lie at x = 0.
-fn symmetrise(layout: &Layout, positions: &mut [DVec3]) {
+/// In a symmetric template, makes each node the mirror image of its twin, to the bit; centre nodes lie at x = 0.
+pub(crate) fn symmetrise(layout: &Layout, positions: &mut [DVec3]) {
+    if !layout.symmetric {
+        return;
+    }
     for (i, node) in layout.nodes.iter().enumerate() {
         let Some(t) = node.twin.map(|t| t as usize) else { continue };
         if t == i {

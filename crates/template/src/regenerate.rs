@@ -20,7 +20,7 @@ use crate::layout::{Layout, LayoutLine};
 use crate::place::Placing;
 use crate::refine::{Refined, Tag};
 use crate::skin::Skin;
-use crate::{complex, joints, outline};
+use crate::{complex, crowding, joints, outline, place};
 
 /// A body with its features, both in the canonical frame (millimetres, y up, facing +z).
 #[derive(Clone, Copy, Debug)]
@@ -159,7 +159,13 @@ pub fn regenerate(
     seconds.prepare = clock.stage(0.1, "placing nodes")?;
 
     let placing = Placing::new(layout, reference.features, &skin)?;
-    let first = placing.place_all(&BTreeMap::new())?;
+    let mut first = placing.place_all(&BTreeMap::new())?;
+    let patches = complex::patches(layout, &first.positions, &skin, &mut Vec::new())?;
+    let moves = crowding::find(layout, &patches, &first.positions, &skin);
+    crowding::apply(&moves, &mut first.positions, &skin);
+    place::symmetrise(layout, &mut first.positions);
+    warnings.extend(crowding::tell(layout, &moves));
+    // Once more: where nodes have moved, other diagonals may be the better ones.
     let patches = complex::patches(layout, &first.positions, &skin, &mut warnings)?;
     if let Some((line, a, b)) = joints::missing_edge(layout, &patches) {
         let name = |n: u32| &layout.nodes[n as usize].name;
@@ -191,7 +197,9 @@ pub fn regenerate(
 
     let mut eases = ease_levels(layout, reference.features, &mut warnings)?;
     let build = |push: BTreeMap<String, f64>, stage: &Stage| {
-        let placed = placing.place_all(&push)?;
+        let mut placed = placing.place_all(&push)?;
+        crowding::apply(&moves, &mut placed.positions, &skin);
+        place::symmetrise(layout, &mut placed.positions);
         let curves = stage.construction.curves(&placed.positions, reference.features)?;
         stage.construction.positions(&placed.positions, &curves)
     };
