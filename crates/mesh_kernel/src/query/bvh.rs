@@ -3,12 +3,12 @@
 //! Boxes are f32, rounded outward and relative to the middle of the mesh; what is in the leaves is decided in f64 by
 //! the caller. Built top-down by the surface area heuristic in 16 bins (Wald 2007).
 
-use glam::DVec3;
+use glam::{DVec3, Vec4};
 
 use crate::TriMesh;
 
-/// Most faces in a leaf.
-const LEAF: usize = 4;
+/// Most faces in a leaf; every leaf has that many places in [`Bvh::order`].
+pub(super) const LEAF: usize = 4;
 const BINS: usize = 16;
 /// Below this depth of binary splits, ranges are halved, so that the depth stays bounded on any input.
 const MAX_SAH_DEPTH: u32 = 40;
@@ -19,8 +19,8 @@ pub(super) const STACK: usize = 3 * (MAX_SAH_DEPTH as usize + 32);
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub(super) struct Node {
-    pub(super) lo: [[f32; 4]; 3],
-    pub(super) hi: [[f32; 4]; 3],
+    pub(super) lo: [Vec4; 3],
+    pub(super) hi: [Vec4; 3],
     pub(super) children: [Child; 4],
 }
 
@@ -33,22 +33,29 @@ const LEAF_BIT: u32 = 1 << 31;
 impl Child {
     pub(super) const ROOT: Self = Self(0);
 
-    /// The run `start..start + count` of [`Bvh::order`] of a leaf, or the node's number.
+    fn leaf(number: usize, count: usize) -> Self {
+        Self(LEAF_BIT | (number as u32) << 3 | count as u32)
+    }
+
+    /// The places in [`Bvh::order`] of a leaf (beginning at a multiple of [`LEAF`]), or the node's number.
     #[inline]
     pub(super) fn get(self) -> Result<std::ops::Range<usize>, usize> {
         if self.0 & LEAF_BIT == 0 {
             return Err(self.0 as usize);
         }
-        let start = (self.0 & !LEAF_BIT) as usize >> 3;
+        let start = ((self.0 & !LEAF_BIT) as usize >> 3) * LEAF;
         Ok(start..start + (self.0 & 7) as usize)
     }
 }
+
+/// No face.
+pub(super) const VACANT: u32 = u32::MAX;
 
 /// The hierarchy over the faces of a mesh.
 #[derive(Clone, Debug)]
 pub(super) struct Bvh {
     pub(super) nodes: Vec<Node>,
-    /// Face numbers, leaf by leaf.
+    /// Face numbers, leaf by leaf; [`VACANT`] in the places that a leaf leaves over.
     pub(super) order: Vec<u32>,
     /// What boxes are relative to.
     pub(super) origin: DVec3,
@@ -112,8 +119,12 @@ impl Bvh {
         bvh.nodes.push(Node::EMPTY);
         while let Some((node, part)) = pending.pop() {
             for (slot, part) in split_in_four(&mut boxes, part).into_iter().enumerate() {
-                let child = if part.end - part.start <= LEAF {
-                    Child(LEAF_BIT | (part.start as u32) << 3 | (part.end - part.start) as u32)
+                let count = part.end - part.start;
+                let child = if count <= LEAF {
+                    let number = bvh.order.len() / LEAF;
+                    bvh.order.extend(boxes[part.start..part.end].iter().map(|(_, f)| *f));
+                    bvh.order.resize((number + 1) * LEAF, VACANT);
+                    Child::leaf(number, count)
                 } else {
                     bvh.nodes.push(Node::EMPTY);
                     pending.push((bvh.nodes.len() - 1, part));
@@ -122,14 +133,13 @@ impl Bvh {
                 bvh.nodes[node].set(slot, &part.bounds, child);
             }
         }
-        bvh.order = boxes.into_iter().map(|(_, f)| f).collect();
         bvh
     }
 }
 
 impl Node {
     const EMPTY: Self =
-        Self { lo: [[f32::INFINITY; 4]; 3], hi: [[f32::NEG_INFINITY; 4]; 3], children: [Child(LEAF_BIT); 4] };
+        Self { lo: [Vec4::INFINITY; 3], hi: [Vec4::NEG_INFINITY; 3], children: [Child(LEAF_BIT); 4] };
 
     fn set(&mut self, slot: usize, bounds: &Box3, child: Child) {
         for axis in 0..3 {

@@ -1,8 +1,9 @@
 //! The point of a mesh that is closest to a given point.
 
-use glam::DVec3;
+use glam::{DVec3, Vec4};
 
-use super::bvh::{Bvh, Child, STACK};
+use super::bvh::{Bvh, Child, LEAF, STACK, VACANT};
+use super::triangle_pack::TrianglePack;
 use crate::TriMesh;
 
 /// The closest point of a mesh.
@@ -20,34 +21,35 @@ pub struct Closest {
 
 /// A mesh prepared for closest-point queries.
 ///
-/// Boxes of the hierarchy are skipped by an f32 bound that is lowered by its own rounding error; distances to faces are
-/// computed in f64. Faces with corners that are not finite are left out.
+/// Boxes of the hierarchy and faces are skipped by f32 bounds that are lowered by their own rounding error; distances to
+/// the faces that are left are computed in f64. Faces with corners that are not finite are left out.
 #[derive(Clone, Debug)]
 pub struct ClosestPoint {
     bvh: Bvh,
     /// Faces in the order of the hierarchy's leaves.
     triangles: Vec<Triangle>,
+    /// The same for the bounds, a leaf each.
+    packs: Vec<TrianglePack>,
 }
 
-/// A face with what its distance needs again and again.
+/// A face as a corner and two sides.
 #[derive(Clone, Debug)]
 struct Triangle {
     a: DVec3,
     ab: DVec3,
     ac: DVec3,
-    ab_ab: f64,
-    ab_ac: f64,
-    ac_ac: f64,
-    /// Sine of the angle at `a` below 1e-4: projecting into the face is ill-conditioned.
-    thin: bool,
 }
 
 impl ClosestPoint {
     /// Builds the hierarchy. O(n log n).
     pub fn new(mesh: &TriMesh) -> Self {
         let bvh = Bvh::new(mesh);
-        let triangles = bvh.order.iter().map(|f| Triangle::new(mesh.corners(*f))).collect();
-        Self { bvh, triangles }
+        let corners = |f: u32| if f == VACANT { [DVec3::ZERO; 3] } else { mesh.corners(f) };
+        let triangles = bvh.order.iter().map(|f| Triangle::new(corners(*f))).collect();
+        let local = |f: &u32| corners(*f).map(|p| p - bvh.origin);
+        let packs =
+            bvh.order.chunks_exact(LEAF).map(|leaf| TrianglePack::new(leaf.iter().map(local))).collect();
+        Self { bvh, triangles, packs }
     }
 
     /// The closest point; `None` without faces or when `p` is not finite. O(log n) near the mesh.
@@ -67,85 +69,161 @@ impl ClosestPoint {
         if !local.is_finite() || max.is_nan() || max < 0.0 || self.triangles.is_empty() {
             return None;
         }
-        let at = local.as_vec3();
-        // Rounding of the point and of the differences, absolute.
-        let slack = (local.abs().max_element() + self.bvh.extent) * f64::from(f32::EPSILON) * 2.0;
-        let reach = |d2: f64| (((d2.sqrt() + slack) * 1.000_001).powi(2) as f32).next_up();
-        // A little above max², whose root may be max after rounding.
-        let mut best_d2 = if max < 1e150 { (max * max * (1.0 + 1e-15)).next_up() } else { f64::INFINITY };
-        let mut best = None;
-        let mut limit = reach(best_d2);
+        let at = local.as_vec3().to_array().map(Vec4::splat);
+        let mut search = Search::new(p, max, local.abs().max_element() + self.bvh.extent);
         let mut stack = [(0f32, Child::ROOT); STACK];
         let mut height = 1;
         while height > 0 {
             height -= 1;
             let (bound, mut child) = stack[height];
-            if bound > limit {
+            if bound > search.limit2 {
                 continue;
             }
             loop {
                 match child.get() {
                     Err(node) => {
                         let node = &self.bvh.nodes[node];
-                        let mut bounds = [0f32; 4];
-                        for (axis, at) in at.to_array().into_iter().enumerate() {
-                            for (bound, (lo, hi)) in
-                                bounds.iter_mut().zip(node.lo[axis].iter().zip(&node.hi[axis]))
-                            {
-                                let d = (lo - at).max(at - hi).max(0.0);
-                                *bound += d * d;
-                            }
+                        let mut bounds = Vec4::ZERO;
+                        for axis in 0..3 {
+                            let d = (node.lo[axis] - at[axis]).max(at[axis] - node.hi[axis]).max(Vec4::ZERO);
+                            bounds += d * d;
+                        }
+                        let mut near = bounds.cmple(Vec4::splat(search.limit2)).bitmask();
+                        if near == 0 {
+                            break;
                         }
                         // The nearest child is next; the others wait, the nearest of them on top.
                         let first = height;
-                        for (bound, child) in bounds.into_iter().zip(node.children) {
-                            if bound <= limit {
-                                let mut slot = height;
-                                while slot > first && stack[slot - 1].0 < bound {
-                                    stack[slot] = stack[slot - 1];
-                                    slot -= 1;
-                                }
-                                stack[slot] = (bound, child);
-                                height += 1;
+                        let bounds = bounds.to_array();
+                        while near != 0 {
+                            let k = near.trailing_zeros() as usize;
+                            near &= near - 1;
+                            let mut slot = height;
+                            while slot > first && stack[slot - 1].0 < bounds[k] {
+                                stack[slot] = stack[slot - 1];
+                                slot -= 1;
                             }
-                        }
-                        if height == first {
-                            break;
+                            stack[slot] = (bounds[k], node.children[k]);
+                            height += 1;
                         }
                         height -= 1;
                         child = stack[height].1;
                     }
                     Ok(leaf) => {
-                        for slot in leaf {
-                            let (barycentric, point) = self.triangles[slot].closest(p);
-                            let d2 = point.distance_squared(p);
-                            if d2 < best_d2 {
-                                best_d2 = d2;
-                                best = Some((slot, barycentric, point));
-                                limit = reach(d2);
-                            }
-                        }
+                        search.leaf(&self.packs[leaf.start / LEAF], at, leaf, &self.triangles);
                         break;
                     }
                 }
             }
         }
-        best
+        search.finish(&self.triangles);
+        search.best
+    }
+}
+
+/// Candidates that wait for their exact distance; more are rarely within rounding of each other.
+const WAITING: usize = 24;
+
+/// The state of a search. Distances in f32 come with bounds of their error; `limit` is what a computed f32 distance can
+/// be at most if the face is to be the closest.
+struct Search {
+    p: DVec3,
+    slack: f64,
+    limit: f32,
+    /// Its square, rounded up.
+    limit2: f32,
+    best_d2: f64,
+    best: Option<(usize, [f64; 3], DVec3)>,
+    /// Least distance and place of faces whose exact distance is not known yet.
+    waiting: [(f32, u32); WAITING],
+    count: usize,
+}
+
+impl Search {
+    /// `size`: largest coordinates of point and mesh together.
+    fn new(p: DVec3, max: f64, size: f64) -> Self {
+        // Rounding of the point and of differences, absolute.
+        let slack = size * f64::from(f32::EPSILON) * 2.0;
+        // A little above max², whose root may be max after rounding.
+        let best_d2 = if max < 1e150 { (max * max * (1.0 + 1e-15)).next_up() } else { f64::INFINITY };
+        let waiting = [(0.0, 0); WAITING];
+        let mut search = Self { p, slack, limit: 0.0, limit2: 0.0, best_d2, best: None, waiting, count: 0 };
+        search.set_limit(best_d2.sqrt());
+        search
+    }
+
+    /// The closest face is at `distance` at most.
+    #[inline]
+    fn set_limit(&mut self, distance: f64) {
+        self.limit = (((distance + self.slack) * 1.000_001) as f32).next_up();
+        self.limit2 = self.limit * self.limit * 1.000_001;
+    }
+
+    #[inline]
+    fn leaf(
+        &mut self,
+        pack: &TrianglePack,
+        at: [Vec4; 3],
+        leaf: std::ops::Range<usize>,
+        triangles: &[Triangle],
+    ) {
+        let bounds = pack.bounds(at);
+        let mut near = bounds.not_beyond(self.limit) & ((1 << leaf.len()) - 1);
+        while near != 0 {
+            let k = near.trailing_zeros() as usize;
+            near &= near - 1;
+            let least = bounds.least(k);
+            if least > self.limit {
+                continue;
+            }
+            if self.count == WAITING {
+                self.finish(triangles);
+            }
+            self.waiting[self.count] = (least, (leaf.start + k) as u32);
+            self.count += 1;
+            let most = f64::from(bounds.most(k)) + self.slack;
+            if (most + self.slack) * 1.000_001 < f64::from(self.limit) {
+                self.set_limit(most);
+            } else if !most.is_finite() {
+                // Nothing is known in f32.
+                self.finish(triangles);
+            }
+        }
+    }
+
+    /// Exact distances of all that wait and may still be the closest.
+    fn finish(&mut self, triangles: &[Triangle]) {
+        for k in 0..std::mem::take(&mut self.count) {
+            let (least, slot) = self.waiting[k];
+            // Not "least <= limit": what is no number is looked at.
+            if least > self.limit {
+                continue;
+            }
+            let slot = slot as usize;
+            let (barycentric, point) = triangles[slot].closest(self.p);
+            let d2 = point.distance_squared(self.p);
+            if d2 < self.best_d2 {
+                self.best_d2 = d2;
+                self.best = Some((slot, barycentric, point));
+                if d2.sqrt() < f64::from(self.limit) {
+                    self.set_limit(d2.sqrt().min(f64::from(self.limit)));
+                }
+            }
+        }
     }
 }
 
 impl Triangle {
     fn new([a, b, c]: [DVec3; 3]) -> Self {
-        let (ab, ac) = (b - a, c - a);
-        let (ab_ab, ab_ac, ac_ac) = (ab.dot(ab), ab.dot(ac), ac.dot(ac));
-        let thin = ab.cross(ac).length_squared() <= 1e-8 * ab_ab * ac_ac;
-        Self { a, ab, ac, ab_ab, ab_ac, ac_ac, thin }
+        Self { a, ab: b - a, ac: c - a }
     }
 
     /// Closest point by the Voronoi regions of the corners and sides (Ericson, Real-Time Collision Detection, 5.1.5).
     #[inline]
     fn closest(&self, p: DVec3) -> ([f64; 3], DVec3) {
-        if self.thin {
+        let (ab_ab, ab_ac, ac_ac) = (self.ab.dot(self.ab), self.ab.dot(self.ac), self.ac.dot(self.ac));
+        // Sine of the angle at `a` below 1e-4: projecting into the face is ill-conditioned.
+        if ab_ab * ac_ac - ab_ac * ab_ac <= 1e-8 * ab_ab * ac_ac {
             return self.closest_thin(p);
         }
         let ap = p - self.a;
@@ -153,22 +231,22 @@ impl Triangle {
         if d1 <= 0.0 && d2 <= 0.0 {
             return ([1.0, 0.0, 0.0], self.a);
         }
-        let (d3, d4) = (d1 - self.ab_ab, d2 - self.ab_ac);
+        let (d3, d4) = (d1 - ab_ab, d2 - ab_ac);
         if d3 >= 0.0 && d4 <= d3 {
             return ([0.0, 1.0, 0.0], self.a + self.ab);
         }
-        let (d5, d6) = (d1 - self.ab_ac, d2 - self.ac_ac);
+        let (d5, d6) = (d1 - ab_ac, d2 - ac_ac);
         if d6 >= 0.0 && d5 <= d6 {
             return ([0.0, 0.0, 1.0], self.a + self.ac);
         }
         let vc = d1 * d4 - d3 * d2;
         if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
-            let t = d1 / self.ab_ab;
+            let t = d1 / ab_ab;
             return ([1.0 - t, t, 0.0], self.a + self.ab * t);
         }
         let vb = d5 * d2 - d1 * d6;
         if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
-            let t = d2 / self.ac_ac;
+            let t = d2 / ac_ac;
             return ([1.0 - t, 0.0, t], self.a + self.ac * t);
         }
         let va = d3 * d6 - d5 * d4;

@@ -1,6 +1,6 @@
 //! Faces of one mesh that cross faces of another, or of the same.
 
-use glam::DVec3;
+use glam::{DVec3, Vec4};
 use rayon::prelude::*;
 
 use super::bvh::{Bvh, Child};
@@ -89,15 +89,12 @@ impl Crossings {
             match child.get() {
                 Err(node) => {
                     let node = &self.bvh.nodes[node];
-                    let mut apart = [false; 4];
+                    let mut apart = 0;
                     for axis in 0..3 {
-                        for (apart, (lo, hi)) in
-                            apart.iter_mut().zip(node.lo[axis].iter().zip(&node.hi[axis]))
-                        {
-                            *apart |= (*lo > to[axis]) | (*hi < from[axis]);
-                        }
+                        apart |= node.lo[axis].cmpgt(Vec4::splat(to[axis])).bitmask();
+                        apart |= node.hi[axis].cmplt(Vec4::splat(from[axis])).bitmask();
                     }
-                    stack.extend((0..4).filter(|k| !apart[*k]).map(|k| node.children[k]));
+                    stack.extend((0..4).filter(|k| apart & (1 << k) == 0).map(|k| node.children[k]));
                 }
                 Ok(leaf) => {
                     for g in &self.bvh.order[leaf] {

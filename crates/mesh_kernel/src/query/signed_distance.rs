@@ -11,10 +11,10 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
+use super::welded::welded;
 use super::winding::half_solid_angle;
 use super::{Adjacency, ClosestPoint, Crossings, WindingNumber};
 use crate::TriMesh;
-use crate::files::weld::{Welder, key};
 
 /// The closest point of a mesh and the side of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,7 +69,7 @@ const MOST_CAPS: usize = 256;
 impl SignedDistance {
     /// Prepares the mesh: hierarchies, self-crossings, caps. O(n log n); nodes at the same place count as one.
     pub fn new(mesh: &TriMesh) -> Self {
-        let welded = weld(mesh);
+        let welded = welded(mesh);
         let adjacency = Adjacency::new(&welded);
         let face_normals: Vec<DVec3> =
             (0..welded.faces.len() as u32).map(|f| welded.area_normal(f).normalize_or_zero()).collect();
@@ -304,24 +304,6 @@ impl AngleBetween for DVec3 {
     fn angle_between_unit(self, other: Self) -> f64 {
         self.cross(other).length().atan2(self.dot(other))
     }
-}
-
-/// The mesh with nodes at the same place made one.
-fn weld(mesh: &TriMesh) -> TriMesh {
-    let mut welder = Welder::<3>::with_capacity(mesh.positions.len());
-    let mut positions = Vec::with_capacity(mesh.positions.len());
-    let numbers: Vec<u32> = mesh
-        .positions
-        .iter()
-        .map(|p| {
-            let (number, new) = welder.number(p.to_array().map(key));
-            if new {
-                positions.push(*p);
-            }
-            number
-        })
-        .collect();
-    TriMesh::new(positions, mesh.faces.iter().map(|face| face.map(|v| numbers[v as usize])).collect())
 }
 
 /// The mesh with cones over its holes added behind its own faces, and the cones as seen from afar.

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use glam::{DMat3, DVec3};
 
-use super::bvh::Bvh;
+use super::bvh::{Bvh, VACANT};
 use crate::TriMesh;
 
 /// How often the mesh winds around `p`: 1 inside and 0 outside a closed mesh with outward faces, in between for meshes
@@ -67,23 +67,25 @@ impl WindingNumber {
     /// Builds the hierarchy. O(n log n).
     pub fn new(mesh: &TriMesh) -> Self {
         let bvh = Bvh::new(mesh);
-        let triangles: Vec<[DVec3; 3]> =
-            bvh.order.iter().map(|f| mesh.corners(*f).map(|p| p - bvh.origin)).collect();
-        // Leaves of a node lie behind the leaves of nodes before it in a depth-first order only; ranges are gathered from
-        // the bottom up, children having larger numbers than their parent.
-        let mut members: Vec<Vec<std::ops::Range<usize>>> = vec![Vec::new(); bvh.nodes.len()];
-        let mut moments = vec![Moments::of(&[], &[]); 4 * bvh.nodes.len()];
+        let corners =
+            |f: u32| if f == VACANT { [DVec3::ZERO; 3] } else { mesh.corners(f).map(|p| p - bvh.origin) };
+        let triangles: Vec<[DVec3; 3]> = bvh.order.iter().map(|f| corners(*f)).collect();
+        // From the bottom up: children have larger numbers than their parent.
+        let mut members: Vec<Vec<u32>> = vec![Vec::new(); bvh.nodes.len()];
+        let mut moments = Vec::with_capacity(4 * bvh.nodes.len());
         for node in (0..bvh.nodes.len()).rev() {
-            for (slot, child) in bvh.nodes[node].children.iter().enumerate() {
-                let ranges = match child.get() {
-                    Ok(leaf) => vec![leaf],
+            let mut all = Vec::new();
+            for child in bvh.nodes[node].children.iter().rev() {
+                let faces = match child.get() {
+                    Ok(leaf) => leaf.map(|k| k as u32).collect(),
                     Err(below) => std::mem::take(&mut members[below]),
                 };
-                moments[4 * node + slot] = Moments::of(&triangles, &ranges);
-                members[node].extend(ranges);
+                moments.push(Moments::of(&triangles, &faces));
+                all.extend(faces);
             }
-            merge(&mut members[node]);
+            members[node] = all;
         }
+        moments.reverse();
         Self { bvh, triangles, moments }
     }
 
@@ -148,8 +150,8 @@ impl WindingNumber {
 }
 
 impl Moments {
-    fn of(triangles: &[[DVec3; 3]], ranges: &[std::ops::Range<usize>]) -> Self {
-        let faces = || ranges.iter().flat_map(|range| &triangles[range.clone()]);
+    fn of(triangles: &[[DVec3; 3]], faces: &[u32]) -> Self {
+        let faces = || faces.iter().map(|k| &triangles[*k as usize]);
         let vector = |[a, b, c]: &[DVec3; 3]| 0.5 * (*b - *a).cross(*c - *a);
         let (mut area, mut centre, mut dipole) = (0.0, DVec3::ZERO, DVec3::ZERO);
         for face in faces() {
@@ -177,16 +179,4 @@ impl Moments {
         set.radius = set.radius.sqrt();
         set
     }
-}
-
-/// Joins ranges that follow each other.
-fn merge(ranges: &mut Vec<std::ops::Range<usize>>) {
-    ranges.sort_unstable_by_key(|range| range.start);
-    ranges.dedup_by(|next, last| {
-        let follows = last.end == next.start;
-        if follows {
-            last.end = next.end;
-        }
-        follows
-    });
 }

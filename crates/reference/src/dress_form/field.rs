@@ -146,7 +146,7 @@ impl Field {
         // Arm plate from the shoulder point to the armpit.
         let chest = sections.at(levels.armpit);
         let height = levels.shoulder - levels.armpit;
-        let under_x = (chest.half_width + 0.006 * h).clamp(shoulder_x - 0.42 * height, shoulder_x + 0.10 * height);
+        let under_x = (chest.half_width + 0.006 * h).clamp(shoulder_x - 0.42 * height, shoulder_x + 0.15 * height);
         let top = DVec3::new(shoulder_x, levels.shoulder, 0.0);
         let bottom = DVec3::new(under_x, levels.armpit, 0.0);
         let along = (top - bottom).normalize();
@@ -157,7 +157,7 @@ impl Field {
         let cos = arm_axis.dot(plate_normal);
         let across = DVec3::new(-arm_axis.y, arm_axis.x, 0.0);
         let half_height = 0.47 * (top - bottom).length() * cos;
-        let half_depth = (m.upper_arm * 10.0 / std::f64::consts::TAU * 1.14).clamp(0.60 * half_height, 1.15 * half_height);
+        let half_depth = (m.upper_arm * 10.0 / std::f64::consts::TAU * 1.0).clamp(0.60 * half_height, 1.15 * half_height);
         let arm = Stub {
             origin: middle - arm_axis * (0.9 * half_height),
             axis: arm_axis,
@@ -228,17 +228,20 @@ impl Field {
             let depth = rise / (1.0 - SINK);
             (skin - SINK * depth, depth)
         };
-        let girth = |rise: f64| {
+        // The tape at height y over ribs and breasts with upper half axis `upper`.
+        let girth_at = |rise: f64, y: f64, upper: f64| {
             let (z, depth) = shape(rise);
-            let mut points = outline.clone();
+            let shrink = (1.0 - ((y - levels.bust) / upper).powi(2)).max(0.0).sqrt();
+            let mut points = if y == levels.bust { outline.clone() } else { self.sections.at(y).outline() };
             for i in 0..=32 {
                 let (s, c) = (std::f64::consts::PI * i as f64 / 32.0).sin_cos();
                 for sign in [-1.0, 1.0] {
-                    points.push([sign * (x + side * c), z + depth * s]);
+                    points.push([sign * (x + side * shrink * c), z + depth * shrink * s]);
                 }
             }
             hull_length(&mut points)
         };
+        let girth = |rise: f64| girth_at(rise, levels.bust, h);
         let (mut low, mut high) = (0.0, 0.2 * h);
         if girth(low) >= want {
             return None;
@@ -249,10 +252,17 @@ impl Field {
         }
         let (z, depth) = shape(low);
         let below = levels.bust - levels.underbust;
+        // As long upward as leaves the bust point the fullest.
+        let above = levels.bust + 0.40 * (levels.armpit - levels.bust);
+        let (mut short, mut long) = (1.15 * below, 1.75 * below);
+        for _ in 0..30 {
+            let middle = 0.5 * (short + long);
+            *(if girth_at(low, above, middle) < 0.995 * want { &mut short } else { &mut long }) = middle;
+        }
         Some(Breast {
             centre: DVec3::new(x, levels.bust, z),
             radius: DVec3::new(side, below * 0.80, depth),
-            upper: 1.75,
+            upper: short / (below * 0.80),
             fillet: 0.022 * h,
         })
     }

@@ -52,10 +52,10 @@ pub struct Levels {
 /// where that survey has none, of the CC0 MakeHuman base mesh. Children: growth moves the trunk's marks up (Snyder et
 /// al. 1977, UMTRI child anthropometry); a line between statures of 80 and 150 cm.
 fn shares(figure: Figure, stature_cm: f64) -> [f64; 11] {
-    const WOMAN: [f64; 11] = [0.853, 0.847, 0.824, 0.819, 0.757, 0.725, 0.690, 0.622, 0.509, 0.463, 0.280];
-    const MAN: [f64; 11] = [0.856, 0.850, 0.826, 0.826, 0.760, 0.737, 0.690, 0.614, 0.514, 0.470, 0.283];
-    const TODDLER: [f64; 11] = [0.812, 0.808, 0.785, 0.778, 0.716, 0.690, 0.650, 0.575, 0.434, 0.383, 0.235];
-    const YOUTH: [f64; 11] = [0.848, 0.842, 0.820, 0.815, 0.754, 0.730, 0.685, 0.618, 0.509, 0.463, 0.280];
+    const WOMAN: [f64; 11] = [0.853, 0.847, 0.824, 0.819, 0.757, 0.725, 0.690, 0.622, 0.511, 0.470, 0.280];
+    const MAN: [f64; 11] = [0.856, 0.850, 0.826, 0.826, 0.760, 0.737, 0.690, 0.614, 0.519, 0.480, 0.285];
+    const TODDLER: [f64; 11] = [0.812, 0.808, 0.785, 0.778, 0.716, 0.690, 0.650, 0.575, 0.434, 0.386, 0.235];
+    const YOUTH: [f64; 11] = [0.848, 0.842, 0.820, 0.815, 0.754, 0.730, 0.685, 0.618, 0.511, 0.469, 0.280];
     match figure {
         Figure::Woman => WOMAN,
         Figure::Man => MAN,

@@ -115,7 +115,7 @@ impl Measurements {
     ///   (R² 0.98); men 0.905 bust, children 0.94 bust.
     /// * High hip: waist + 0.66 (hip − waist). Neck base: women 34.9 + 0.2016 (bust − 83.8) (ASTM D5585-11 again),
     ///   men 17.5 + 0.24 bust, children 11.5 + 0.3 bust.
-    /// * Shoulder width: 0.195 height + 0.035 bust; men and children 0.2 height + 0.05 / 0.045 bust.
+    /// * Shoulder width: 0.185 height + 0.055 bust; men and children 0.2 height + 0.05 / 0.045 bust.
     /// * Back length: 0.2435 height; children 0.232. Limbs: fixed shares of bust (upper arm) and hip (legs).
     ///
     /// # Errors
@@ -182,7 +182,7 @@ impl Measurements {
                 11.5 + 0.3 * bust,
             )),
             shoulder_width: self.shoulder_width.unwrap_or(by_figure(
-                0.195 * height + 0.035 * bust,
+                0.185 * height + 0.055 * bust,
                 0.200 * height + 0.050 * bust,
                 0.200 * height + 0.045 * bust,
             )),

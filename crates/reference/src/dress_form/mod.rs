@@ -85,19 +85,25 @@ impl DressForm {
         let levels = field.levels;
 
         // A coarse form first: how far do its girths miss, with all parts joined?
-        let coarse = half_form(&field, levels.stature / 70.0);
-        let correction = tape::correction(&coarse, &field, &resolved);
-        field.sections.scale(|y| correction.get(y));
+        let mut coarse = half_form(&field, levels.stature / 70.0);
+        for _ in 0..2 {
+            let correction = tape::correction(&coarse, &field, &resolved);
+            field.sections.scale(|y| correction.get(y));
+            coarse = half_form(&field, levels.stature / 70.0);
+        }
 
         let surface = 2.0 * remesh::area(&coarse);
         let edge = (surface / options.triangles as f64 / (0.25 * 3.0_f64.sqrt())).sqrt();
         let mut half = half_form(&field, edge * 0.95);
         remesh::remesh(&mut half, &field, edge, 5);
-        for _ in 0..4 {
-            let correction = tape::correction(&half, &field, &resolved);
-            tape::warp(&mut half, &field, &correction);
+        for round in 0..6 {
+            // The extremes first; what is left at the levels themselves last.
+            let factor = if round < 4 { tape::level_extremes } else { tape::correction };
+            let factor = factor(&half, &field, &resolved);
+            tape::warp(&mut half, &field, &factor);
         }
         tape::check(&half, &levels, &resolved)?;
+        let levels = as_built(levels, &half);
         let (mesh, labels) = mirrored(&half);
         let plates = plates(&mesh, &labels, &field);
         Ok(Self { mesh, measurements: resolved, levels, plates })
@@ -115,6 +121,20 @@ fn half_form(field: &Field, cell: f64) -> Patch {
         z: [z[0] - margin, z[1] + margin],
     };
     clip::clip(polygonize::polygonize(|p| field.closed(p, margin), &bounds, cell), &field.cuts)
+}
+
+/// The levels that the finished surface itself decides: crotch, armpit and shoulder point.
+fn as_built(mut levels: Levels, half: &Patch) -> Levels {
+    let (knee, hip) = (levels.knee, levels.hip);
+    let middle = half.positions.iter().filter(|p| p.x == 0.0 && p.y > knee && p.y < hip);
+    levels.crotch = middle.map(|p| p.y).fold(hip, f64::min);
+    let arm = half.faces.iter().zip(&half.label).filter(|(_, l)| **l as usize == field::ARM + 1);
+    let heights = arm.flat_map(|(face, _)| face.map(|v| half.positions[v as usize].y));
+    let [low, high] = heights.fold([f64::MAX, f64::MIN], |[a, b], y| [a.min(y), b.max(y)]);
+    if low < high {
+        (levels.armpit, levels.shoulder) = (low, high);
+    }
+    levels
 }
 
 /// The whole mesh and the plate label of every face; nodes of the plane of symmetry are shared.
@@ -161,21 +181,4 @@ fn plates(mesh: &TriMesh, labels: &[u8], field: &Field) -> Vec<Plate> {
         plates.push(of("neck", 2, 0.0));
     }
     plates
-}
-#[cfg(test)]
-mod debug_tests {
-    use super::*;
-    #[test]
-    fn dbg() {
-        let m: Measurements = serde_json::from_str(r#"{"bust":92,"waist":75,"hip":98.4,"height":168}"#).unwrap();
-        let r = m.resolve().unwrap();
-        let field = Field::new(&r, false);
-        let coarse = half_form(&field, 12.0);
-        let c = tape::correction(&coarse, &field, &r);
-        for i in 0..60 {
-            let y = 740.0 + 10.0 * i as f64;
-            let s = field.sections.at(y);
-            println!("{y} {:.1} A {:.1} b {:.1} c {:.1} corr {:.4}", tape::girths(&coarse, &[y])[0], s.half_width, s.half_depth, s.centre, c.get(y));
-        }
-    }
 }

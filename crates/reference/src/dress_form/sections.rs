@@ -84,6 +84,8 @@ impl Section {
 #[derive(Clone, Debug)]
 pub(super) struct Sections {
     step: f64,
+    /// Rows over which sizes are smoothed.
+    spread: f64,
     table: Vec<[f64; FIELDS]>,
     /// `ε` of the parting, mm.
     pub(super) parting: f64,
@@ -106,9 +108,9 @@ fn centres(figure: Figure) -> ByLevel {
 /// normal weight, and how fast each grows with girth over stature above 0.44.
 fn depths(figure: Figure) -> [[f64; 2]; 6] {
     match figure {
-        Figure::Woman => [[0.600, 0.45], [0.660, 0.8], [0.710, 0.9], [0.680, 0.6], [0.665, 0.45], [0.635, 0.3]],
-        Figure::Man => [[0.620, 0.45], [0.705, 0.8], [0.700, 1.0], [0.705, 0.6], [0.690, 0.4], [0.650, 0.3]],
-        Figure::Child => [[0.630, 0.45], [0.680, 0.8], [0.690, 1.0], [0.730, 0.6], [0.720, 0.4], [0.680, 0.3]],
+        Figure::Woman => [[0.600, 0.45], [0.660, 0.8], [0.710, 0.9], [0.680, 0.6], [0.665, 0.55], [0.635, 0.5]],
+        Figure::Man => [[0.620, 0.45], [0.705, 0.8], [0.700, 1.0], [0.705, 0.6], [0.690, 0.45], [0.650, 0.45]],
+        Figure::Child => [[0.630, 0.45], [0.680, 0.8], [0.690, 1.0], [0.730, 0.6], [0.720, 0.45], [0.680, 0.45]],
     }
 }
 
@@ -116,8 +118,8 @@ fn depths(figure: Figure) -> [[f64; 2]; 6] {
 fn rib_shares(figure: Figure) -> [f64; 2] {
     match figure {
         Figure::Woman => [0.45, 0.43],
-        Figure::Man => [1.0, 0.55],
-        Figure::Child => [1.0, 0.40],
+        Figure::Man => [1.0, 0.92],
+        Figure::Child => [1.0, 0.85],
     }
 }
 
@@ -173,6 +175,17 @@ impl Sections {
         let mut ratio: Vec<(f64, f64)> = (0..6)
             .map(|i| (trunk_levels[i], depth(i, girth.get(trunk_levels[i]))))
             .collect();
+        // The arms hang outside the ribs: wide chests on narrow shoulders are deep.
+        let limit = m.shoulder_width * 5.0 + 0.06 * (levels.shoulder - levels.armpit);
+        while ratio[5].1 < 0.95 {
+            let unit = Section { half_width: 1.0, half_depth: ratio[5].1, ..hip_section };
+            let whole = Section { centre: 0.0, part_front: 0.0, part_back: 0.0, power_front: 2.3, power_back: 2.5, ..unit };
+            if girth.get(levels.armpit) / hull_length(&mut whole.outline()) <= limit {
+                break;
+            }
+            ratio[5].1 += 0.01;
+        }
+        ratio[4].1 = ratio[4].1.max(ratio[5].1 - 0.04);
         ratio.push((levels.crotch, 0.5));
         let ratio = Curve::through(&ratio);
         let power_front = Curve::through(&by_level(levels, [2.1, 2.15, 2.2, 2.2, 2.25, 2.3, 2.3, 2.3, 2.2]));
@@ -213,7 +226,9 @@ impl Sections {
                 if y < levels.crotch { legs.section(y) } else { trunk(y) }.to_array()
             })
             .collect();
-        Self { step: table_step, table: smoothed(&table, 0.0085 * h / table_step), parting }
+        // Less for the parting, which opens the crotch.
+        let spread = 0.0085 * h / table_step;
+        Self { step: table_step, spread, table: smoothed(&smoothed(&table, spread, &[0, 1, 2, 5, 6]), 0.5 * spread, &[3, 4]), parting }
     }
 
     /// Girth by height of the trunk without breasts.
@@ -250,15 +265,18 @@ impl Sections {
         Section::from_array(std::array::from_fn(|k| a[k] + f * (b[k] - a[k])))
     }
 
-    /// Multiplies width and depth of the sections by a factor of height, about their middles.
+    /// Multiplies width and depth of the sections by a factor of height, smoothed, about their middles.
     pub(super) fn scale(&mut self, factor: impl Fn(f64) -> f64) {
-        for (i, row) in self.table.iter_mut().enumerate() {
-            let s = factor(i as f64 * self.step);
+        let factors: Vec<[f64; 1]> = (0..self.table.len()).map(|i| [factor(i as f64 * self.step)]).collect();
+        for (row, [s]) in self.table.iter_mut().zip(smoothed(&factors, self.spread, &[0])) {
             row[0] *= s;
             row[1] *= s;
         }
     }
 }
+
+/// Share of the hip's tape that the trunk's section makes; the seat's own swelling makes the rest.
+const SEAT_SHARE: f64 = 0.983;
 
 /// Both legs as one parted section.
 struct Legs {
@@ -302,7 +320,7 @@ impl Legs {
         let round = thigh / std::f64::consts::TAU;
         let roomy = (0.972 * hip - 1.03 * thigh) / 4.0 - parting;
         let from_hip = |share: f64, y: f64| {
-            let line = 0.5 * (share * hip_section.half_width - gap.get(y));
+            let line = 0.5 * (share * SEAT_SHARE * hip_section.half_width - gap.get(y));
             line.clamp(0.84 * round, 1.04 * round).min(roomy)
         };
         let outer = |a: f64, y: f64| (y, 2.0 * a + gap.get(y));
@@ -416,16 +434,16 @@ pub(super) fn smooth_step(t: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// The table with its sizes and middles (not the parting) smoothed by a Gaussian of `spread` rows: monotone curves have
-/// jumps of curvature that would show as rings.
-fn smoothed(table: &[[f64; FIELDS]], spread: f64) -> Vec<[f64; FIELDS]> {
+/// The columns of a table smoothed by a Gaussian of `spread` rows: monotone curves have jumps of curvature that would show
+/// as rings.
+fn smoothed<const N: usize>(table: &[[f64; N]], spread: f64, columns: &[usize]) -> Vec<[f64; N]> {
     let reach = (3.0 * spread).ceil() as usize;
     let weight: Vec<f64> = (0..=reach).map(|d| (-0.5 * (d as f64 / spread).powi(2)).exp()).collect();
     let last = table.len() - 1;
     (0..table.len())
         .map(|i| {
             let mut row = table[i];
-            for (k, value) in row.iter_mut().enumerate().filter(|(k, _)| !(3..5).contains(k)) {
+            for &k in columns {
                 let (mut sum, mut total) = (0.0, 0.0);
                 for (d, w) in weight.iter().enumerate() {
                     for j in [i.saturating_sub(d), (i + d).min(last)] {
@@ -433,7 +451,7 @@ fn smoothed(table: &[[f64; FIELDS]], spread: f64) -> Vec<[f64; FIELDS]> {
                         total += w;
                     }
                 }
-                *value = sum / total;
+                row[k] = sum / total;
             }
             row
         })

@@ -37,31 +37,55 @@ pub(super) fn girths(half: &Patch, heights: &[f64]) -> Vec<f64> {
 /// narrowest girth (0.6 mm at 20 mm).
 const BEND: f64 = 0.0015;
 
-/// Factor of width and depth by height that makes the girths right, and the asked ones the fullest or narrowest of their
-/// region.
+/// Factor of width and depth by height that makes the girths right at their levels. Above the bust the trunk stays a little
+/// narrower than the bust, so that no other girth than the bust's own is the fullest.
 pub(super) fn correction(half: &Patch, field: &Field, m: &Resolved) -> Curve {
     let levels = &field.levels;
     let h = levels.stature;
+    let bust = m.bust * 10.0;
+    let room = levels.armpit - levels.bust;
     let wanted = [
         (levels.hip, m.hip * 10.0),
         (levels.high_hip, m.high_hip * 10.0),
         (levels.waist, m.waist * 10.0),
         (levels.underbust, m.underbust * 10.0),
-        (levels.bust, m.bust * 10.0),
+        (levels.bust, bust),
     ];
-    let at = wanted.map(|w| w.0);
-    let now = girths(half, &at);
-    let mut factor: Vec<(f64, f64)> = (0..5).map(|i| (at[i], wanted[i].1 / now[i].max(1.0))).collect();
-    let bust_factor = factor[4].1;
-    factor.extend([
+    let upper = [
+        (levels.bust + 0.35 * room, 0.995 * bust),
+        (levels.armpit - UNDERARM * h, 0.985 * bust),
+    ];
+    let heights: Vec<f64> = wanted.iter().chain(&upper).map(|w| w.0).collect();
+    let now = girths(half, &heights);
+    let factor = |i: usize, want: f64| want / now[i].max(1.0);
+    let mut points: Vec<(f64, f64)> = (0..5).map(|i| (heights[i], factor(i, wanted[i].1))).collect();
+    let mut last = points[4].1;
+    for (i, (y, most)) in upper.into_iter().enumerate() {
+        // Never fuller there than measured, and never more squeezed than the level below by much.
+        last = factor(5 + i, most).min(last).max(0.93 * last);
+        points.push((y, last));
+    }
+    points.extend([
         (levels.crotch - 0.03 * h, 1.0),
         (levels.crotch - 0.02 * h, 1.0),
-        (levels.armpit, 0.5 + 0.5 * bust_factor),
+        (levels.armpit, 0.3 + 0.7 * last),
         (levels.shoulder, 1.0),
         (levels.shoulder + 0.01 * h, 1.0),
     ]);
-    let factor = Curve::through(&factor);
-    // Every few millimetres: the factor between the levels, held below (above) the arcs of the extremes.
+    Curve::through(&points)
+}
+
+/// Below the armpit, shares of stature, where the arm already swells the section: no fullest girth is looked for there.
+const UNDERARM: f64 = 0.012;
+
+/// The correction, and every girth near an extreme held below (above) an arc through it, so that a tape that looks for the
+/// fullest or narrowest finds the asked girth.
+pub(super) fn level_extremes(half: &Patch, field: &Field, m: &Resolved) -> Curve {
+    let levels = &field.levels;
+    let h = levels.stature;
+    let [hip, waist, bust] = [m.hip * 10.0, m.waist * 10.0, m.bust * 10.0];
+    let factor = correction(half, field, m);
+    let at = [levels.hip, levels.high_hip, levels.waist, levels.underbust, levels.bust];
     let (low, high) = (levels.crotch - 0.02 * h, levels.armpit);
     let count = ((high - low) / 4.0).ceil() as usize;
     let mut heights: Vec<f64> = (0..=count).map(|i| low + (high - low) * i as f64 / count as f64).collect();
@@ -69,32 +93,28 @@ pub(super) fn correction(half: &Patch, field: &Field, m: &Resolved) -> Curve {
     heights.extend(at);
     heights.sort_by(f64::total_cmp);
     let measured = girths(half, &heights);
-    let guard = 0.012 * h;
     let arc = |y: f64, level: f64| 0.5 * BEND * (y - level).powi(2);
+    // The ribs above a waist that is no narrower may be narrower again: there the waist is the least up to the lowest roll.
+    let ribs = levels.waist + 0.6 * (levels.underbust - levels.waist);
+    let waist_end = if m.underbust > m.waist { levels.underbust } else { ribs };
     let mut points: Vec<(f64, f64)> = heights
         .iter()
         .zip(&measured)
         .map(|(&y, &girth)| {
-            let mut f = factor.get(y);
+            let f = factor.get(y);
             let got = girth * f;
             let mut goal = got;
-            if y < levels.waist && m.hip > m.waist {
-                goal = goal.min(wanted[0].1 - arc(y, levels.hip));
+            if y < levels.waist && hip > waist {
+                goal = goal.min(hip - arc(y, levels.hip));
             }
-            if y > levels.underbust && y < levels.armpit - guard && m.bust > m.underbust {
-                goal = goal.min(wanted[4].1 - arc(y, levels.bust));
+            if y > levels.underbust && y < levels.armpit - UNDERARM * h && m.bust > m.underbust {
+                goal = goal.min(bust - arc(y, levels.bust));
             }
-            if y > levels.hip && y < levels.underbust - 0.3 * (levels.underbust - levels.waist) && m.waist < m.hip {
-                let rising = if y > levels.waist && m.underbust < m.waist { 0.0 } else { arc(y, levels.waist) };
-                let floor = wanted[2].1 + rising;
-                if y < levels.waist || m.underbust >= m.waist {
-                    goal = goal.max(floor.min(wanted[0].1));
-                }
+            if y > levels.hip && y < waist_end && waist < hip {
+                let ceiling = if y > levels.waist { (10.0 * m.underbust).max(waist) } else { hip };
+                goal = goal.max((waist + arc(y, levels.waist)).min(ceiling));
             }
-            if girth > 0.0 {
-                f *= goal / got;
-            }
-            (y, f)
+            (y, if got > 0.0 { f * goal / got } else { f })
         })
         .collect();
     for y in [levels.armpit + 0.25 * (levels.shoulder - levels.armpit), levels.shoulder, levels.shoulder + 0.01 * h] {

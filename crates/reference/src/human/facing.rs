@@ -7,15 +7,18 @@ use super::figure::{Figure, Level};
 use super::ring::depth_at;
 
 /// Positive if the body faces +z; near zero if nothing tells.
-pub(crate) fn votes(figure: &Figure<'_>) -> f64 {
-    let h = figure.height;
+///
+/// `h` is the stature of the person, also if the head is missing.
+pub(crate) fn votes(figure: &Figure<'_>, h: f64) -> f64 {
     let vote = |evidence: Option<f64>, clear: f64, weight: f64| {
         evidence.map_or(0.0, |e| (e / (clear * h)).clamp(-1.0, 1.0) * weight)
     };
     let depths = |from: f64, to: f64| {
         let spans: Vec<[f64; 2]> = figure.between(from * h, to * h).iter().filter_map(midline).collect();
         let n = spans.len() as f64;
-        (n > 0.0).then(|| [spans.iter().map(|s| s[0]).sum::<f64>() / n, spans.iter().map(|s| s[1]).sum::<f64>() / n])
+        (n > 0.0).then(|| {
+            [spans.iter().map(|s| s[0]).sum::<f64>() / n, spans.iter().map(|s| s[1]).sum::<f64>() / n]
+        })
     };
     let toes = centre(figure.between(0.0, 0.02 * h)).zip(centre(figure.between(0.06 * h, 0.10 * h)));
     let mut sum = vote(toes.map(|(f, a)| f.y - a.y), 0.012, 4.0);

@@ -89,8 +89,10 @@ impl<'a> Figure<'a> {
     pub(crate) fn new(mesh: &'a TriMesh, height: f64) -> Self {
         let stack = SectionStack::new(mesh, DVec3::Y);
         let step = height / LEVELS as f64;
-        let levels =
-            (0..LEVELS).into_par_iter().map(|i| cut(&stack, (i as f64 + 0.5) * step, Gaps::Join)).collect::<Vec<_>>();
+        let levels = (0..LEVELS)
+            .into_par_iter()
+            .map(|i| cut(&stack, (i as f64 + 0.5) * step, Gaps::Join))
+            .collect::<Vec<_>>();
         Self { mesh, stack, height, step, levels }
     }
 
@@ -160,7 +162,9 @@ pub(crate) fn smooth(values: &[f64], sigma: f64) -> Vec<f64> {
             values[i as usize]
         }
     };
-    (0..n as i64).map(|i| (-reach..=reach).zip(&weights).map(|(k, w)| w * value(i + k)).sum::<f64>() / total).collect()
+    (0..n as i64)
+        .map(|i| (-reach..=reach).zip(&weights).map(|(k, w)| w * value(i + k)).sum::<f64>() / total)
+        .collect()
 }
 
 /// Piecewise cubic through `(at, value)` knots that never overshoots (Fritsch and Carlson 1980), extended by its end

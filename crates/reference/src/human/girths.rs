@@ -4,7 +4,7 @@ use mesh_kernel::glam::{DVec2, DVec3};
 use mesh_kernel::query::plane_section;
 use rayon::prelude::*;
 
-use super::figure::{Figure, Level, Side};
+use super::figure::{Figure, Level, Side, ramp};
 use super::marks::Marks;
 use super::normals::NormalField;
 use super::ring::{Gaps, Ring, depth_at, outer_rings, perimeter};
@@ -49,12 +49,14 @@ pub(crate) fn add(
     let levels = trunk_levels(figure, marks)?;
     for (name, y) in levels.named() {
         let level = figure.at(y);
-        let ring = level.trunk().ok_or_else(|| format!("the trunk has no outline at the {name}"))?;
+        let ring = marks.trunk(&level).ok_or_else(|| format!("the trunk has no outline at the {name}"))?;
         let place = |p: &DVec2| DVec3::new(p.x, y, p.y);
         let skin = from_front(&ring.points, SPACING);
         let taut = from_front(&ring.hull(), SPACING);
         features.curves.insert(name.to_owned(), closed(skin.iter().map(place).collect(), DVec3::Y, field));
-        features.curves.insert(format!("{name}_tape"), closed(taut.iter().map(place).collect(), DVec3::Y, field));
+        features
+            .curves
+            .insert(format!("{name}_tape"), closed(taut.iter().map(place).collect(), DVec3::Y, field));
     }
     if let Some(curve) = neck(figure, marks, field) {
         features.curves.insert("neck".to_owned(), curve);
@@ -69,31 +71,44 @@ pub(crate) fn add(
 
 /// Tape girths of the trunk between crotch and armpits, and the heights that ISO 8559-1 names by them.
 fn trunk_levels(figure: &Figure<'_>, marks: &Marks) -> Result<TrunkLevels, String> {
-    let (s, armpit_y, crotch_y) = (marks.stature, marks.armpit_height(), marks.crotch.y);
+    let (s, armpit_y, crotch_y) = (marks.stature, marks.armpit_height(), marks.crotch_level);
     let chest = marks.armpit.iter().map(|p| p.y).fold(f64::INFINITY, f64::min) - 2.0;
     let tapes: Vec<(f64, f64)> = figure
-        .between(crotch_y + 4.0, chest)
+        .between(crotch_y, chest)
         .par_iter()
         .filter(|l| l.y > crotch_y && l.y <= chest)
-        .filter_map(|l| l.trunk().map(|t| (l.y, t.tape())))
+        .filter_map(|l| marks.trunk(l).map(|t| (l.y, t.tape())))
         .collect();
     let fullest = |from: f64, to: f64| {
         tapes.iter().filter(|t| t.0 >= from && t.0 <= to).max_by(|a, b| a.1.total_cmp(&b.1)).map(|t| t.0)
     };
-    let missing = |what: &str| format!("the trunk has no outline between crotch and armpits where the {what} should be");
+    let missing = |what: &str| {
+        format!("the trunk has no outline between crotch and armpits where the {what} should be")
+    };
     // The fold under the breasts lies 6.8 % of the stature below the armpits where there are no breasts to show it.
     let underbust = underbust(figure, marks, armpit_y - 0.068 * s);
     let navel = crotch_y + 0.483 * (armpit_y - crotch_y);
     let hip = fullest(crotch_y, navel).ok_or_else(|| missing("hip"))?;
-    let waist = tapes
-        .iter()
-        .filter(|t| t.0 > hip && t.0 <= underbust.min(armpit_y - 0.068 * s))
-        .min_by(|a, b| a.1.total_cmp(&b.1))
-        .map(|t| t.0)
-        .ok_or_else(|| missing("waist"))?;
+    let ceiling = underbust.min(armpit_y - 0.068 * s);
+    let waist = waist(&tapes, hip, ceiling, s).ok_or_else(|| missing("waist"))?;
     let bust = fullest(underbust, chest).ok_or_else(|| missing("bust"))?;
     let high_hip = hip + 0.5 * (waist - hip);
     Ok(TrunkLevels { chest, bust, underbust, waist, high_hip, hip })
+}
+
+/// The narrowest height between hip and underbust. On a trunk that narrows all the way up to the chest, the height
+/// where it has narrowed most compared with an even taper; between the two cases the answer passes smoothly.
+fn waist(tapes: &[(f64, f64)], hip: f64, ceiling: f64, stature: f64) -> Option<f64> {
+    let range: Vec<(f64, f64)> = tapes.iter().copied().filter(|t| t.0 > hip && t.0 <= ceiling).collect();
+    let narrowest = range.iter().min_by(|a, b| a.1.total_cmp(&b.1))?.0;
+    let own = ramp(0.001 * stature, 0.006 * stature, ceiling - narrowest);
+    if own >= 1.0 {
+        return Some(narrowest);
+    }
+    let (low, high) = (range[0], range[range.len() - 1]);
+    let even = |y: f64| low.1 + (high.1 - low.1) * (y - low.0) / (high.0 - low.0).max(1e-9);
+    let bent = range.iter().min_by(|a, b| (a.1 - even(a.0)).total_cmp(&(b.1 - even(b.0))))?.0;
+    Some(bent + own * (narrowest - bent))
 }
 
 /// Below the breasts: the deepest fold of the front contour through the bust points.
@@ -201,13 +216,19 @@ impl TiltedPlane {
 
 /// Neck girth: below the larynx, in a plane that leans forward with the neck.
 fn neck(figure: &Figure<'_>, marks: &Marks, field: &NormalField) -> Option<FeatureCurve> {
-    let tilt = NECK_TILT.to_radians();
-    let plane = TiltedPlane::new(DVec3::new(0.0, tilt.cos(), tilt.sin()));
-    let mut centre = (marks.nape + marks.front_neck) / 2.0;
-    let above = marks.nape.y + 0.020 * marks.stature;
-    // A form may be cut off below: then just under its neck plate, whose front edge the leaning plane meets first.
-    let depth = (marks.front_neck.z - marks.nape.z) / 2.0;
-    centre.y = above.min(figure.height - depth * tilt.tan() - 4.0);
+    let (plane, centre) = match marks.neck_plate {
+        // A form that is cut off at the neck: just below its plate.
+        Some([front, back]) => {
+            let normal = (back - front).cross(DVec3::X).normalize();
+            (TiltedPlane::new(normal * normal.y.signum()), (front + back) / 2.0 - DVec3::Y * 4.0)
+        }
+        None => {
+            let tilt = NECK_TILT.to_radians();
+            let mut centre = (marks.nape + marks.front_neck) / 2.0;
+            centre.y = marks.nape.y + 0.020 * marks.stature;
+            (TiltedPlane::new(DVec3::new(0.0, tilt.cos(), tilt.sin())), centre)
+        }
+    };
     let section = plane_section(figure.mesh, centre, plane.normal);
     let rings = outer_rings(&section, 25.0, Gaps::Join, |p| plane.flat(p));
     let inside = plane.flat(centre);
@@ -231,7 +252,8 @@ fn neck_base(figure: &Figure<'_>, marks: &Marks, field: &NormalField) -> Result<
             let cos_side = side_turn.y / side_turn.length();
             let (front, back) = (marks.front_neck.y, marks.nape.y);
             let b = (front - back) / 2.0;
-            let c = ((front + back) / 2.0 + b * cos_side - side.y) / (1.0 - (2.0 * cos_side * cos_side - 1.0));
+            let c =
+                ((front + back) / 2.0 + b * cos_side - side.y) / (1.0 - (2.0 * cos_side * cos_side - 1.0));
             let a = (front + back) / 2.0 - c;
             let y = a + b * turn.cos() + c * (2.0 * turn).cos();
             let direction = DVec2::new(turn.sin(), turn.cos());
@@ -290,7 +312,9 @@ fn armhole(figure: &Figure<'_>, marks: &Marks, side: Side, field: &NormalField) 
     let middle = (top + bottom) / 2.0;
     let front = down.cross(out) * side.sign();
     let flat = |p: DVec3| DVec2::new((p - middle).dot(front), (p - middle).dot(-down));
-    let rings = outer_rings(&plane_section(figure.mesh, middle, out), 25.0, Gaps::Join, flat);
+    // Just inside a plate, not in it.
+    let cut = if marks.plates[i] { middle - out * 3.0 } else { middle };
+    let rings = outer_rings(&plane_section(figure.mesh, cut, out), 25.0, Gaps::Join, flat);
     let reach = top.distance(bottom) / 2.0;
     // Radial about the middle; below the armpit the trunk's side is cut off at the armpit.
     let count = 48;
@@ -298,10 +322,7 @@ fn armhole(figure: &Figure<'_>, marks: &Marks, side: Side, field: &NormalField) 
         .map(|k| {
             let turn = std::f64::consts::TAU * f64::from(k) / f64::from(count);
             let d = DVec2::new(turn.sin(), turn.cos());
-            let hit = rings
-                .iter()
-                .filter_map(|r| ray_any(r, d))
-                .reduce(f64::min);
+            let hit = rings.iter().filter_map(|r| ray_any(r, d)).reduce(f64::min);
             let under = if d.y < 0.0 { reach / -d.y } else { f64::INFINITY };
             hit.unwrap_or(reach).min(under).min(1.6 * reach).max(0.35 * reach)
         })
@@ -332,7 +353,9 @@ fn ray_any(ring: &Ring, direction: DVec2) -> Option<f64> {
         .filter_map(|i| {
             let (a, b) = (ring.points[i], ring.points[(i + 1) % n]);
             let (u, v) = (direction.perp_dot(a), direction.perp_dot(b));
-            ((u > 0.0) != (v > 0.0)).then(|| (a + (b - a) * (u / (u - v))).dot(direction)).filter(|t| *t > 0.0)
+            ((u > 0.0) != (v > 0.0))
+                .then(|| (a + (b - a) * (u / (u - v))).dot(direction))
+                .filter(|t| *t > 0.0)
         })
         .reduce(f64::min)
 }

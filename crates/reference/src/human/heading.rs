@@ -83,7 +83,8 @@ impl Cubes {
                     if q.iter().zip(self.count).any(|(v, n)| *v < 0 || *v >= n as i64) {
                         continue;
                     }
-                    let cell = (q[0] as usize * self.count[1] + q[1] as usize) * self.count[2] + q[2] as usize;
+                    let cell =
+                        (q[0] as usize * self.count[1] + q[1] as usize) * self.count[2] + q[2] as usize;
                     for &i in &self.order[self.starts[cell] as usize..self.starts[cell + 1] as usize] {
                         let s = &samples[i as usize];
                         let d = s.at.distance_squared(p);
@@ -112,7 +113,8 @@ fn samples(mesh: &TriMesh, count: usize) -> Vec<Sample> {
         while next < sum {
             // The R2 sequence spreads several samples of one large triangle.
             let k = out.len() as f64 + 1.0;
-            let (mut u, mut v) = ((k * 0.754_877_666_246_692_7).fract(), (k * 0.569_840_290_998_053_2).fract());
+            let (mut u, mut v) =
+                ((k * 0.754_877_666_246_692_7).fract(), (k * 0.569_840_290_998_053_2).fract());
             if u + v > 1.0 {
                 (u, v) = (1.0 - u, 1.0 - v);
             }
@@ -160,7 +162,13 @@ fn apart(a: f64, b: f64) -> f64 {
     d.min(std::f64::consts::PI - d)
 }
 
-fn refine(samples: &[Sample], cubes: &Cubes, start: MirrorPlane, stride: usize, rounds: usize) -> MirrorPlane {
+fn refine(
+    samples: &[Sample],
+    cubes: &Cubes,
+    start: MirrorPlane,
+    stride: usize,
+    rounds: usize,
+) -> MirrorPlane {
     let mut plane = start;
     for round in 0..=rounds {
         let n = plane.normal();

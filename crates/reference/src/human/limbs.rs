@@ -32,7 +32,7 @@ pub(crate) fn add(figure: &Figure<'_>, marks: &Marks, field: &NormalField, featu
 }
 
 fn leg(figure: &Figure<'_>, marks: &Marks, side: Side, field: &NormalField, features: &mut Features) {
-    let crotch = marks.crotch.y;
+    let crotch = marks.crotch_level;
     let girths: Vec<(f64, f64, DVec3)> = figure
         .between(0.03 * figure.height, crotch)
         .iter()
@@ -50,8 +50,10 @@ fn leg(figure: &Figure<'_>, marks: &Marks, side: Side, field: &NormalField, feat
     let thigh = Some(crotch - 0.03 * marks.stature);
     for (what, y) in [("ankle", ankle), ("knee", knee), ("thigh", thigh)] {
         let Some(y) = y else { continue };
-        let near = |at: f64| girths.iter().min_by(|a, b| (a.0 - at).abs().total_cmp(&(b.0 - at).abs())).map(|g| g.2);
-        let (Some(below), Some(above)) = (near(y - 0.03 * marks.stature), near(y + 0.02 * marks.stature)) else {
+        let near =
+            |at: f64| girths.iter().min_by(|a, b| (a.0 - at).abs().total_cmp(&(b.0 - at).abs())).map(|g| g.2);
+        let (Some(below), Some(above)) = (near(y - 0.03 * marks.stature), near(y + 0.02 * marks.stature))
+        else {
             continue;
         };
         // Square to the leg as seen from the front, halfway: a tape round a spread leg is held between level and square.
@@ -79,7 +81,13 @@ fn shifted(ring: &Ring) -> Vec<DVec2> {
 }
 
 /// The place of a girth straight before its middle (1) or behind it (0).
-fn place_of(ring: &Ring, plane: &TiltedPlane, at: f64, front: usize, field: &NormalField) -> Option<FeaturePoint> {
+fn place_of(
+    ring: &Ring,
+    plane: &TiltedPlane,
+    at: f64,
+    front: usize,
+    field: &NormalField,
+) -> Option<FeaturePoint> {
     let middle = plane.place(ring.centroid, at);
     let depth = depth_at(&shifted(ring), 0.0)?[front];
     let place = plane.place(DVec2::new(0.0, depth) + ring.centroid, at);
@@ -102,7 +110,8 @@ fn arm(figure: &Figure<'_>, marks: &Marks, side: Side, field: &NormalField, feat
     let (shoulder, armpit) = (marks.shoulder[i], marks.armpit[i]);
     let Some(mesh) = arm_surface(figure.mesh, shoulder, armpit, side) else { return false };
     let joint = (shoulder + armpit) / 2.0;
-    let reach = mesh.faces.iter().flatten().map(|v| mesh.positions[*v as usize].distance(joint)).fold(0.0, f64::max);
+    let reach =
+        mesh.faces.iter().flatten().map(|v| mesh.positions[*v as usize].distance(joint)).fold(0.0, f64::max);
     if reach < 0.2 * marks.stature {
         return false;
     }
@@ -158,7 +167,11 @@ fn arm(figure: &Figure<'_>, marks: &Marks, side: Side, field: &NormalField, feat
         let along = (armpit - first).dot(direction) + 0.052 * marks.stature;
         let centre = (0..=60)
             .map(|k| at(elbow * f64::from(k) / 60.0))
-            .min_by(|a, b| ((*a - first).dot(direction) - along).abs().total_cmp(&((*b - first).dot(direction) - along).abs()))
+            .min_by(|a, b| {
+                ((*a - first).dot(direction) - along)
+                    .abs()
+                    .total_cmp(&((*b - first).dot(direction) - along).abs())
+            })
             .unwrap_or(first);
         around(&mesh, centre, direction)
     };

@@ -4,6 +4,7 @@ use mesh_kernel::glam::{DVec2, DVec3};
 use mesh_kernel::query::SectionStack;
 
 use super::figure::{Figure, Level, Side, ramp, smooth};
+use super::plates::arm_plate;
 use super::ring::{Ring, breadth_at, depth_at};
 
 /// Landmarks in the canonical frame. Pairs are left, right.
@@ -12,7 +13,15 @@ pub(crate) struct Marks {
     /// Length that anatomical proportions refer to: the stature, also where the head is missing.
     pub(crate) stature: f64,
     pub(crate) crotch: DVec3,
+    /// Height at which the legs join.
+    pub(crate) crotch_level: f64,
     pub(crate) armpit: [DVec3; 2],
+    /// Height from which the trunk's outline holds the arm.
+    pub(crate) joined: [f64; 2],
+    /// Whether a flat plate ends the shoulder instead of an arm.
+    pub(crate) plates: [bool; 2],
+    /// Front and back edge of the neck plate of a form without a head.
+    pub(crate) neck_plate: Option<[DVec3; 2]>,
     pub(crate) shoulder: [DVec3; 2],
     pub(crate) neck_side: [DVec3; 2],
     pub(crate) nape: DVec3,
@@ -27,6 +36,18 @@ pub(crate) struct Marks {
 }
 
 impl Marks {
+    /// The trunk's outline without the arms: from where an arm has joined it, it ends at the armpit.
+    pub(crate) fn trunk(&self, level: &Level) -> Option<Ring> {
+        let mut ring = level.trunk()?.clone();
+        for side in Side::BOTH {
+            let (i, s) = (side.index(), side.sign());
+            if level.y > self.joined[i] - 1.0 {
+                ring = ring.cut_off(s, self.armpit[i].x.abs())?;
+            }
+        }
+        Some(ring)
+    }
+
     pub(crate) fn armpit_height(&self) -> f64 {
         (self.armpit[0].y + self.armpit[1].y) / 2.0
     }
@@ -35,55 +56,103 @@ impl Marks {
 /// Finds all of them; what had to be guessed goes to `warnings`.
 pub(crate) fn find(figure: &Figure<'_>, warnings: &mut Vec<String>) -> Result<Marks, String> {
     let h = figure.height;
-    let (crotch, legs) = crotch(figure, warnings);
-    let armpits: Vec<Option<DVec3>> = Side::BOTH.iter().map(|s| armpit(figure, *s)).collect();
-    let armpit = match (armpits[0], armpits[1]) {
-        (Some(l), Some(r)) => [l, r],
-        (Some(one), None) | (None, Some(one)) => {
+    let Crotch { point: crotch, level: crotch_level, legs } = crotch(figure, warnings);
+    let head = has_head(figure);
+    let stature = stature_guess(figure);
+    let found = Side::BOTH.map(|s| armpit(figure, stature, s).or_else(|| plate(figure, stature, s)));
+    let armpits = match found {
+        [Some(l), Some(r)] => [l, r],
+        [Some(one), None] | [None, Some(one)] => {
             warnings.push("one armpit was not found: the other one's mirror image is taken".to_owned());
-            let other = DVec3::new(-one.x, one.y, one.z);
-            if one.x > 0.0 { [one, other] } else { [other, one] }
+            let mirrored = |p: DVec3| DVec3::new(-p.x, p.y, p.z);
+            let other = Armpit { place: mirrored(one.place), plate_top: one.plate_top.map(mirrored), ..one };
+            if one.place.x > 0.0 { [one, other] } else { [other, one] }
         }
-        (None, None) => return Err("no arms or armholes stand out from the trunk".to_owned()),
+        [None, None] => return Err("no arms or armholes stand out from the trunk".to_owned()),
     };
+    let (armpit, joined) = (armpits.map(|a| a.place), armpits.map(|a| a.joined));
     let armpit_y = (armpit[0].y + armpit[1].y) / 2.0;
-    let head = has_head(figure, armpit_y);
-    // From crotch to armpit is 0.285 of the stature within 3 % (twelve bodies); it serves where the head is missing.
-    let stature = if head { h } else { (armpit_y - crotch.y) / 0.285 };
-    if !(0.62..0.85).contains(&(armpit_y / h)) && head {
-        return Err(format!("the armpits would lie at {:.0} % of the height (people: 72 to 79 %)", armpit_y / h * 100.0));
+    if !(0.62..0.85).contains(&(armpit_y / stature)) {
+        return Err(format!(
+            "the armpits would lie at {:.0} % of the height (people: 72 to 79 %)",
+            armpit_y / stature * 100.0
+        ));
     }
     let profile = Profile::new(figure, armpit_y - 0.12 * stature, (armpit_y + 0.19 * stature).min(0.995 * h));
-    let (nape, front_neck) = neck_marks(&profile, armpit_y, stature, head, warnings)?;
-    let neck_side = [neck_side(figure, nape, front_neck, stature, Side::Left), neck_side(figure, nape, front_neck, stature, Side::Right)];
+    let NeckMarks { nape, front: front_neck, plate: neck_plate } =
+        neck_marks(&profile, armpit_y, stature, head, warnings)?;
+    let plates = armpits.map(|a| a.plate_top.is_some());
+    let neck_side = [
+        neck_side(figure, nape, front_neck, stature, Side::Left),
+        neck_side(figure, nape, front_neck, stature, Side::Right),
+    ];
     let across = SectionStack::new(figure.mesh, DVec3::X);
     let mut shoulder = [DVec3::ZERO; 2];
     let mut shoulder_line = [Vec::new(), Vec::new()];
     for side in Side::BOTH {
         let i = side.index();
-        shoulder[i] = shoulder_point(&across, armpit[i], stature, side);
+        shoulder[i] =
+            armpits[i].plate_top.unwrap_or_else(|| shoulder_point(&across, armpit[i], stature, side));
         shoulder_line[i] = ridge(&across, neck_side[i], shoulder[i]);
     }
-    let navel = navel(figure, crotch.y, armpit_y, stature);
+    let navel = navel(figure, crotch_level, armpit_y, stature);
     let (bust, breasts) = bust_points(figure, &armpit, stature);
     let crown = head.then(|| crown(figure)).flatten();
-    Ok(Marks { stature, crotch, armpit, shoulder, neck_side, nape, front_neck, bust, navel, crown, shoulder_line, breasts, legs })
+    Ok(Marks {
+        stature,
+        crotch,
+        crotch_level,
+        armpit,
+        joined,
+        plates,
+        neck_plate,
+        shoulder,
+        neck_side,
+        nape,
+        front_neck,
+        bust,
+        navel,
+        crown,
+        shoulder_line,
+        breasts,
+        legs,
+    })
 }
 
-/// Where the legs join, going down from the waist: the lowest point of the section through the plane of symmetry.
-fn crotch(figure: &Figure<'_>, warnings: &mut Vec<String>) -> (DVec3, bool) {
-    let h = figure.height;
-    let joined = |l: &Level| l.trunk().is_some_and(|t| depth_at(&t.points, 0.0).is_some());
-    let mut i = figure.index(0.58 * h);
+/// The stature, also of a form without a head: forms end at the neck, at 0.87 of the stature.
+pub(crate) fn stature_guess(figure: &Figure<'_>) -> f64 {
+    if has_head(figure) { figure.height } else { figure.height / 0.87 }
+}
+
+/// The lowest level, going down from the waist, that crosses the plane of symmetry.
+fn lowest_joined(figure: &Figure<'_>) -> usize {
+    let mut i = figure.index(0.58 * figure.height);
     while i > 0 && joined(&figure.levels[i - 1]) {
         i -= 1;
     }
+    i
+}
+
+fn joined(level: &Level) -> bool {
+    level.trunk().is_some_and(|t| depth_at(&t.points, 0.0).is_some())
+}
+
+/// Where the legs join: the crotch point, the height at which they do, and whether there are two at all.
+struct Crotch {
+    point: DVec3,
+    level: f64,
+    legs: bool,
+}
+
+/// Where the legs join, going down from the waist: the lowest point of the section through the plane of symmetry.
+fn crotch(figure: &Figure<'_>, warnings: &mut Vec<String>) -> Crotch {
+    let h = figure.height;
+    let i = lowest_joined(figure);
+    let mut torn = false;
     let mut legs = i > figure.index(0.36 * h);
     let mut y = figure.levels[i].y;
-    let mut z = None;
     if legs {
         y = lowest(figure.levels[i - 1].y, y, |y| joined(&figure.at(y)));
-        z = figure.midline(y).map(|[a, b]| (a + b) / 2.0);
         if !joined(&figure.parted_at(y + 2.0)) {
             // A hole in the skin: the legs join somewhere between the lowest place where its rims may be bridged and the
             // lowest place where nothing is missing.
@@ -91,16 +160,20 @@ fn crotch(figure: &Figure<'_>, warnings: &mut Vec<String>) -> (DVec3, bool) {
             if let Some(l) = above {
                 warnings.push("the skin has a hole at the crotch: its height is an estimate".to_owned());
                 y = (y + l.y) / 2.0;
+                torn = true;
             }
         }
-        if y < 0.42 * h {
-            // Thighs that touch join lower than the legs do; the bridge between them is shallower than the pelvis.
-            let deep = |l: &Level| {
-                l.trunk().is_some_and(|t| depth_at(&t.points, 0.0).is_some_and(|[a, b]| b - a > 0.55 * (t.hi.y - t.lo.y)))
-            };
-            if let Some(l) = figure.between(y, 0.53 * h).iter().find(|l| deep(l)) {
-                y = l.y;
-                warnings.push("the thighs touch: the crotch was put where the pelvis becomes deep".to_owned());
+        // Thighs that touch join lower than the legs do; the bridge between them is shallow, the pelvis is deep at once.
+        let depth = |l: &Level| {
+            let t = l.trunk()?;
+            depth_at(&t.points, 0.0).map(|[back, front]| (front - back) / (t.hi.y - t.lo.y))
+        };
+        if !torn && depth(&figure.at(y + 0.007 * h)).is_some_and(|d| d < 0.22) {
+            let above = figure.between(y, 0.54 * h);
+            if let Some(l) = above.iter().find(|l| depth(l).is_some_and(|d| d > 0.36)) {
+                y = l.y - 0.004 * h;
+                warnings
+                    .push("the thighs touch: the crotch was put where the pelvis becomes deep".to_owned());
             }
         }
     } else {
@@ -108,8 +181,12 @@ fn crotch(figure: &Figure<'_>, warnings: &mut Vec<String>) -> (DVec3, bool) {
         y = 0.475 * h;
         warnings.push("the legs do not part: the crotch was put by proportion".to_owned());
     }
-    let z = z.or_else(|| figure.midline(y + 0.003 * h).map(|[a, b]| (a + b) / 2.0)).unwrap_or(0.0);
-    (DVec3::new(0.0, y, z), legs)
+    // The skin between the legs rises from front to back; the crotch point is where it reaches 0.5 % of the stature.
+    let point_y = y + 0.0048 * h;
+    let z = figure
+        .midline(point_y)
+        .map_or(0.0, |[back, front]| if torn { back + 0.25 * (front - back) } else { back });
+    Crotch { point: DVec3::new(0.0, point_y, z), level: y, legs }
 }
 
 /// The lowest height between two at which a test begins to hold, by bisection.
@@ -131,11 +208,9 @@ fn half_breadth(level: &Level, side: Side) -> Option<f64> {
 }
 
 /// Going up, the height where the trunk's outline takes in the arm: it becomes broader faster than any flank does.
-fn armpit(figure: &Figure<'_>, side: Side) -> Option<DVec3> {
-    let h = figure.height;
+fn armpit(figure: &Figure<'_>, h: f64, side: Side) -> Option<Armpit> {
     let (low, high) = (figure.index(0.655 * h), figure.index(0.86 * h));
-    let breadth: Vec<Option<f64>> =
-        figure.levels[low..=high].iter().map(|l| half_breadth(l, side)).collect();
+    let breadth: Vec<Option<f64>> = figure.levels[low..=high].iter().map(|l| half_breadth(l, side)).collect();
     let ahead = ((0.018 * h / figure.step) as usize).max(1);
     let jump = (1.7 * figure.step).max(6.0);
     let at = (0..breadth.len() - ahead).find(|&i| {
@@ -146,6 +221,7 @@ fn armpit(figure: &Figure<'_>, side: Side) -> Option<DVec3> {
     let below = breadth[at]?;
     let taken_in = |l: &Level| half_breadth(l, side).is_some_and(|b| b - below > 0.6 * jump);
     let mut y = lowest(figure.levels[low + at].y, figure.levels[low + at + 1].y, |y| taken_in(&figure.at(y)));
+    let joined = y;
     if !taken_in(&figure.parted_at(y + 2.0)) {
         // A hole in the skin, whose rims may have been bridged too low.
         let above = figure.between(y, y + 0.04 * h).iter().find(|l| taken_in(&figure.parted_at(l.y)));
@@ -160,7 +236,24 @@ fn armpit(figure: &Figure<'_>, side: Side) -> Option<DVec3> {
         .filter(|r| r.centroid.x * s > 0.5 * below && !std::ptr::eq(*r, trunk) && r.area > 300.0)
         .min_by(|a, b| (a.centroid.x * s).total_cmp(&(b.centroid.x * s)));
     let spot = arm.and_then(|a| between(trunk, a, 0.03 * h)).unwrap_or_else(|| extreme(trunk, side));
-    Some(DVec3::new(spot.x, y, spot.y))
+    // The web between front and back fold is not level: it is lowest in front of its middle.
+    let z = spot.y - 0.006 * h;
+    Some(Armpit { place: DVec3::new(spot.x, y, z), joined, plate_top: None })
+}
+
+/// The armhole of an armless dress form.
+fn plate(figure: &Figure<'_>, stature: f64, side: Side) -> Option<Armpit> {
+    let plate = arm_plate(figure.mesh, side, 0.66 * stature, 0.88 * stature, stature)?;
+    Some(Armpit { place: plate.bottom, joined: f64::INFINITY, plate_top: Some(plate.top) })
+}
+
+/// An armpit, and the height from which outlines take in the arm: lower than the armpit if there is a hole.
+#[derive(Clone, Copy)]
+struct Armpit {
+    place: DVec3,
+    joined: f64,
+    /// Upper end of the plate of an armless form.
+    plate_top: Option<DVec3>,
 }
 
 /// Outermost place of an outline, averaged over the outermost 2 mm.
@@ -209,18 +302,17 @@ fn between(trunk: &Ring, arm: &Ring, widest: f64) -> Option<DVec2> {
 }
 
 /// A head is broader than the neck below it.
-fn has_head(figure: &Figure<'_>, armpit_y: f64) -> bool {
+fn has_head(figure: &Figure<'_>) -> bool {
     let h = figure.height;
-    let widths: Vec<f64> = figure
-        .between(armpit_y + 0.05 * h, 0.985 * h)
-        .iter()
-        .filter_map(|l| l.trunk().map(|t| t.area))
-        .collect();
-    let Some(narrow) = (0..widths.len()).min_by(|a, b| widths[*a].total_cmp(&widths[*b])) else { return false };
-    let neck = widths[..widths.len() * 9 / 10].iter().copied().fold(f64::INFINITY, f64::min);
-    let _ = narrow;
-    let at = widths.iter().position(|w| *w <= neck).unwrap_or(0);
-    widths[at..].iter().copied().fold(0.0, f64::max) > 1.25 * neck && (h - armpit_y) > 0.17 * h
+    let areas: Vec<f64> =
+        figure.between(0.76 * h, 0.985 * h).iter().filter_map(|l| l.trunk().map(|t| t.area)).collect();
+    let chest =
+        figure.between(0.5 * h, 0.8 * h).iter().filter_map(Level::trunk).map(|t| t.area).fold(0.0, f64::max);
+    // The narrowest level that is not at the very top: a rounded head is narrow there, too.
+    let neck = areas[..areas.len() * 4 / 5].iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1));
+    neck.is_some_and(|(i, neck)| {
+        *neck < 0.35 * chest && areas[i..].iter().copied().fold(0.0, f64::max) > 1.25 * neck
+    })
 }
 
 /// Back and front contour on the plane of symmetry, smoothed over 8 mm.
@@ -253,6 +345,13 @@ impl Profile {
     }
 }
 
+struct NeckMarks {
+    nape: DVec3,
+    front: DVec3,
+    /// Front and back edge of the neck plate of a form without a head.
+    plate: Option<[DVec3; 2]>,
+}
+
 /// Nape (seventh vertebra) and front neck point (pit above the breastbone).
 fn neck_marks(
     profile: &Profile,
@@ -260,11 +359,27 @@ fn neck_marks(
     stature: f64,
     head: bool,
     warnings: &mut Vec<String>,
-) -> Result<(DVec3, DVec3), String> {
+) -> Result<NeckMarks, String> {
     if profile.y.len() < 12 {
         return Err("there is no neck above the shoulders".to_owned());
     }
-    let top = profile.y[profile.y.len() - 1];
+    let mut plate = None;
+    let mut top = profile.y[profile.y.len() - 1];
+    if !head {
+        // The neck plate, whose front edge is low, is not part of the neck's contour.
+        let mut i = profile.y.len() - 1;
+        while i > 2 && profile.front[i - 1] - profile.front[i] > 1.2 * (profile.y[i] - profile.y[i - 1]) {
+            i -= 1;
+        }
+        // The contour is smoothed: stay clear of the edge.
+        i = i.saturating_sub(2);
+        top = profile.y[i];
+        let last = profile.y.len() - 1;
+        plate = Some([
+            DVec3::new(0.0, top, profile.front[i]),
+            DVec3::new(0.0, profile.y[last], profile.back[last]),
+        ]);
+    }
     let nape_y = if head {
         // The nape lies below the deepest place of the neck's hollow by 4.9 % of the stature (within 5 mm).
         let range = armpit_y + 0.07 * stature..armpit_y + 0.165 * stature;
@@ -293,7 +408,7 @@ fn neck_marks(
         }
     }
     let y = best.1;
-    Ok((nape, DVec3::new(0.0, y, profile.at(&profile.front, y))))
+    Ok(NeckMarks { nape, front: DVec3::new(0.0, y, profile.at(&profile.front, y)), plate })
 }
 
 /// Side of the neck base: a little above the nape, on the outline of the neck.
@@ -339,7 +454,8 @@ fn crest(chains: &[[DVec2; 2]]) -> Option<DVec2> {
     for [a, b] in chains {
         for (p, q) in [(a, b), (b, a)] {
             if p.y >= top - 4.0 {
-                let z = if q.y < top - 4.0 { p.x + (p.y - top + 4.0) / (p.y - q.y) * (q.x - p.x) } else { p.x };
+                let z =
+                    if q.y < top - 4.0 { p.x + (p.y - top + 4.0) / (p.y - q.y) * (q.x - p.x) } else { p.x };
                 lo = lo.min(z.min(p.x));
                 hi = hi.max(z.max(p.x));
             }
@@ -350,10 +466,10 @@ fn crest(chains: &[[DVec2; 2]]) -> Option<DVec2> {
 
 /// Shoulder point (acromion): above the armpit, a little outward, behind the crest of the shoulder.
 fn shoulder_point(across: &SectionStack, armpit: DVec3, stature: f64, side: Side) -> DVec3 {
-    let x = armpit.x + 0.008 * stature * side.sign();
+    let x = armpit.x + 0.007 * stature * side.sign();
     let chains = upper_chain(across, x, armpit.y);
     let crest = crest(&chains).unwrap_or(DVec2::new(armpit.z, armpit.y + 0.062 * stature));
-    let z = crest.x - 0.017 * stature;
+    let z = crest.x - 0.0145 * stature;
     DVec3::new(x, top_at(&chains, z).unwrap_or(crest.y), z)
 }
 
@@ -399,7 +515,8 @@ fn navel(figure: &Figure<'_>, crotch_y: f64, armpit_y: f64, stature: f64) -> DVe
 fn bust_points(figure: &Figure<'_>, armpit: &[DVec3; 2], stature: f64) -> ([DVec3; 2], f64) {
     let armpit_y = (armpit[0].y + armpit[1].y) / 2.0;
     let levels = figure.between(armpit_y - 0.088 * stature, armpit_y - 0.012 * stature);
-    let direction = |side: Side| DVec2::new(side.sign() * 20.0_f64.to_radians().sin(), 20.0_f64.to_radians().cos());
+    let direction =
+        |side: Side| DVec2::new(side.sign() * 20.0_f64.to_radians().sin(), 20.0_f64.to_radians().cos());
     let mut touch = [DVec3::ZERO; 2];
     for side in Side::BOTH {
         let (d, outer) = (direction(side), armpit[side.index()].x.abs());

@@ -9,6 +9,7 @@ mod heading;
 mod limbs;
 mod marks;
 mod normals;
+mod plates;
 mod ring;
 mod upright;
 mod verticals;
@@ -163,7 +164,7 @@ pub fn extract(raw: &TriMesh, options: &HumanOptions) -> Result<HumanBody, Human
 
     let mut warnings = Vec::new();
     let mut figure = figure::Figure::new(&surface, height);
-    let mut votes = facing::votes(&figure);
+    let mut votes = facing::votes(&figure, marks::stature_guess(&figure));
     if let Some(wanted) = options.facing {
         votes = placement.rotation.transpose().mul_vec3(wanted).z;
     } else if votes.abs() < 0.6 {
@@ -198,15 +199,14 @@ pub fn extract(raw: &TriMesh, options: &HumanOptions) -> Result<HumanBody, Human
     Ok(HumanBody { mesh, placement, unit, features, girths })
 }
 
-fn features_of(figure: &figure::Figure<'_>, marks: &marks::Marks, warnings: Vec<String>) -> Result<Features, String> {
+fn features_of(
+    figure: &figure::Figure<'_>,
+    marks: &marks::Marks,
+    warnings: Vec<String>,
+) -> Result<Features, String> {
     let field = normals::NormalField::new(figure.mesh);
-    let mut features = Features {
-        facing: DVec3::Z,
-        up: DVec3::Y,
-        height: figure.height,
-        warnings,
-        ..Features::default()
-    };
+    let mut features =
+        Features { facing: DVec3::Z, up: DVec3::Y, height: figure.height, warnings, ..Features::default() };
     let trunk = girths::add(figure, marks, &field, &mut features)?;
     verticals::add(figure, marks, &trunk, &field, &mut features)?;
     limbs::add(figure, marks, &field, &mut features);

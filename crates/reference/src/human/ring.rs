@@ -56,6 +56,23 @@ impl Ring {
         perimeter(&self.hull())
     }
 
+    /// What lies within `x * side <= reach` (Sutherland and Hodgman).
+    pub(crate) fn cut_off(&self, side: f64, reach: f64) -> Option<Self> {
+        let n = self.points.len();
+        let over = |p: DVec2| p.x * side - reach;
+        let mut kept = Vec::with_capacity(n + 4);
+        for i in 0..n {
+            let (a, b) = (self.points[i], self.points[(i + 1) % n]);
+            if over(a) <= 0.0 {
+                kept.push(a);
+            }
+            if (over(a) <= 0.0) != (over(b) <= 0.0) {
+                kept.push(a.lerp(b, over(a) / (over(a) - over(b))));
+            }
+        }
+        Self::new(kept)
+    }
+
     /// Whether the point lies inside (even-odd).
     pub(crate) fn contains(&self, p: DVec2) -> bool {
         let mut inside = false;
@@ -170,7 +187,8 @@ pub(crate) fn outer_rings(
     rings.sort_by(|a, b| b.area.total_cmp(&a.area));
     let mut outer: Vec<Ring> = Vec::new();
     for r in rings {
-        if !outer.iter().any(|o| o.lo.cmple(r.lo).all() && o.hi.cmpge(r.hi).all() && o.contains(r.points[0])) {
+        if !outer.iter().any(|o| o.lo.cmple(r.lo).all() && o.hi.cmpge(r.hi).all() && o.contains(r.points[0]))
+        {
             outer.push(r);
         }
     }

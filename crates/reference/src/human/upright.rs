@@ -124,9 +124,11 @@ fn judge(levels: &[Vec<Ring>]) -> Look {
     };
     let area = |rings: &[Ring]| rings.iter().map(|r| r.area).sum::<f64>();
     let legs = share(0.05, 0.36, &|r| {
-        r.len() >= 2 && r[1].area > 0.4 * r[0].area && r.get(2).is_none_or(|third| third.area < 0.7 * r[1].area)
+        r.len() >= 2
+            && r[1].area > 0.4 * r[0].area
+            && r.get(2).is_none_or(|third| third.area < 0.7 * r[1].area)
     });
-    let trunk = share(0.50, 0.70, &|r| !r.is_empty() && r[0].area > 0.55 * area(r));
+    let trunk = share(0.58, 0.70, &|r| !r.is_empty() && r[0].area > 0.55 * area(r));
     let head = share(0.90, 0.98, &|r| !r.is_empty() && r[0].area > 0.75 * area(r));
     let widest = |from: f64, to: f64| {
         let range = (from * LEVELS as f64) as usize..(to * LEVELS as f64) as usize;
@@ -134,6 +136,8 @@ fn judge(levels: &[Vec<Ring>]) -> Look {
     };
     let chest = widest(0.55, 0.80);
     let top = widest(0.93, 0.99);
+    let neck =
+        levels[LEVELS * 72 / 100..LEVELS * 98 / 100].iter().map(|r| area(r)).fold(f64::INFINITY, f64::min);
     let score = legs + trunk + head;
     let missing = if !(0.004..0.09).contains(&chest) {
         Some(format!(
@@ -144,7 +148,7 @@ fn judge(levels: &[Vec<Ring>]) -> Look {
         Some("there are no two legs of like size below".to_owned())
     } else if trunk < 0.8 {
         Some("there is no single trunk above the legs".to_owned())
-    } else if head < 0.6 || top > 0.8 * chest {
+    } else if head < 0.6 || top > 1.2 * chest || neck > 0.55 * chest {
         Some("there is no head or neck narrower than the trunk at the top".to_owned())
     } else {
         None

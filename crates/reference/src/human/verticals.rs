@@ -122,9 +122,9 @@ impl Lines<'_> {
         let middle = |y: f64| self.bounds_at(y).map(|(lo, hi)| (lo.y + hi.y) / 2.0);
         let mut knots: Vec<(f64, f64)> = [
             0.05 * self.figure.height,
-            0.5 * self.marks.crotch.y,
-            self.marks.crotch.y,
-            self.levels.hip.max(self.marks.crotch.y + 20.0),
+            0.5 * self.marks.crotch_level,
+            self.marks.crotch_level,
+            self.levels.hip.max(self.marks.crotch_level + 20.0),
             self.levels.waist,
         ]
         .into_iter()
@@ -134,11 +134,12 @@ impl Lines<'_> {
         let s = side.sign();
         let points = self.down(start, |o| {
             let z = monotone_cubic(&knots, o.y);
-            let value =
-                |p: &[DVec2]| breadth_at(p, z).map(|b| if side == Side::Left { b[1] } else { b[0] }).filter(|x| x * s > 0.0);
+            let value = |p: &[DVec2]| {
+                breadth_at(p, z).map(|b| if side == Side::Left { b[1] } else { b[0] }).filter(|x| x * s > 0.0)
+            };
             let taut = value(&o.taut)?;
             let skin = o.skin.as_deref().and_then(value).unwrap_or(taut);
-            let w = self.tautness(o.y, self.levels.hip, self.marks.crotch.y + 5.0);
+            let w = self.tautness(o.y, self.levels.hip, self.marks.crotch_level + 5.0);
             Some(DVec3::new(skin + w * (taut - skin), o.y, z))
         });
         self.insert(side.name("side"), points, features);
@@ -170,7 +171,7 @@ impl Lines<'_> {
             let value = |p: &[DVec2]| depth_at(p, x).map(|d| d[usize::from(front)]);
             let taut = value(&o.taut)?;
             let skin = o.skin.as_deref().and_then(value).unwrap_or(taut);
-            let w = self.tautness(o.y, self.levels.hip, self.marks.crotch.y + 5.0);
+            let w = self.tautness(o.y, self.levels.hip, self.marks.crotch_level + 5.0);
             Some(DVec3::new(x, o.y, skin + w * (taut - skin)))
         });
         let name = side.name(if front { "princess_front" } else { "princess_back" });
@@ -202,7 +203,9 @@ impl Lines<'_> {
                 self.field.at(*p, hint)
             })
             .collect();
-        features.curves.insert(name, FeatureCurve { closed: false, points, normals: smooth_normals(normals) });
+        features
+            .curves
+            .insert(name, FeatureCurve { closed: false, points, normals: smooth_normals(normals) });
     }
 }
 
