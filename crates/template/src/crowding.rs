@@ -13,9 +13,9 @@ use crate::layout::Layout;
 use crate::skin::Skin;
 
 /// Two neighbours nearer than this share of their spacing have fallen together.
-const TOO_NEAR: f64 = 0.15;
+const TOO_NEAR: f64 = 0.22;
 /// ... but not if they are this far apart, mm.
-const FAR_ENOUGH: f64 = 14.0;
+const FAR_ENOUGH: f64 = 20.0;
 /// In a triangle that lies upside down, the shortest edge is to blame if it is below this share of the longest.
 const SHORT_EDGE: f64 = 0.6;
 /// Where the moved node goes on the way from its partner to the next neighbour.
@@ -59,7 +59,8 @@ pub(crate) fn find(layout: &Layout, patches: &[Patch], positions: &[DVec3], skin
     for (a, others) in &around {
         for b in others.range(a + 1..) {
             let spacing = |n: u32, other: u32| {
-                let rest: Vec<f64> = around[&n].iter().filter(|m| **m != other).map(|m| length(n, *m)).collect();
+                let rest: Vec<f64> =
+                    around[&n].iter().filter(|m| **m != other).map(|m| length(n, *m)).collect();
                 rest.iter().sum::<f64>() / rest.len().max(1) as f64
             };
             let near = TOO_NEAR * spacing(*a, *b).min(spacing(*b, *a));
@@ -84,9 +85,10 @@ pub(crate) fn find(layout: &Layout, patches: &[Patch], positions: &[DVec3], skin
         }
         let free = |m: &&u32| **m != partner && !around[&partner].contains(*m) && !crowded.contains(*m);
         // The neighbour that lies nearest beyond it; it must be farther off than the pair is apart.
-        let next = around[&node].iter().filter(free).min_by(|p, q| {
-            length(node, **p).total_cmp(&length(node, **q)).then(rank(**p).cmp(&rank(**q)))
-        });
+        let next = around[&node]
+            .iter()
+            .filter(free)
+            .min_by(|p, q| length(node, **p).total_cmp(&length(node, **q)).then(rank(**p).cmp(&rank(**q))));
         if let Some(next) = next
             && length(partner, *next) > length(node, partner)
         {

@@ -53,7 +53,7 @@ const FINE_AIM: f64 = 3.0;
 /// Rounds of the ease solver.
 const EASE_ROUNDS: usize = 12;
 /// Rounds on the fine garment after a search on the coarse one.
-const FINE_ROUNDS: usize = 3;
+const FINE_ROUNDS: usize = 5;
 /// A garment with as many faces is fine enough to measure girths on: some 60 chords round a hip, 0.3 mm short.
 const COARSE_FACES: usize = 1500;
 /// More template faces than this times four to the level are refused.
@@ -158,7 +158,7 @@ pub fn regenerate(
     let skin = Skin::new(reference.mesh);
     seconds.prepare = clock.stage(0.1, "placing nodes")?;
 
-    let placing = Placing::new(layout, reference.features, &skin)?;
+    let placing = Placing::new(layout, reference.features, &skin, file.clearance)?;
     let mut first = placing.place_all(&BTreeMap::new())?;
     let patches = complex::patches(layout, &first.positions, &skin, &mut Vec::new())?;
     let moves = crowding::find(layout, &patches, &first.positions, &skin);
@@ -216,6 +216,7 @@ pub fn regenerate(
             }
         }
         fine.drape.start_from(&rough.drape);
+        eases.iter_mut().for_each(|l| l.secant.restart());
     }
     let faces: Vec<_> = eases.iter().map(|l| l.faces(fine.refined)).collect();
     let rounds = if rough.is_some() { FINE_ROUNDS } else { EASE_ROUNDS };
