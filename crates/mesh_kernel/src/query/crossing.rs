@@ -51,9 +51,9 @@ impl Crossings {
     pub fn self_crossing(&self) -> Vec<(u32, u32)> {
         self.collect(self.faces.len(), |f, candidates, pairs| {
             self.candidates(&self.corners(f), candidates);
-            pairs.extend(
-                candidates.iter().filter(|g| **g > f && self.own_faces_meet(f, **g)).map(|g| (f, *g)),
-            );
+            let due = |g: u32| g > f || f >= self.known;
+            let meeting = candidates.iter().filter(|g| due(**g) && self.own_faces_meet(f, **g));
+            pairs.extend(meeting.map(|g| (f.min(*g), f.max(*g))));
         })
     }
 
