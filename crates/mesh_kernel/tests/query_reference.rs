@@ -1,4 +1,5 @@
 //! Queries against values of libigl (`tests/reference/make_queries.py`).
+#![allow(clippy::unwrap_used)]
 
 use mesh_kernel::TriMesh;
 use mesh_kernel::files::read;
