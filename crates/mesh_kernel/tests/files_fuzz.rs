@@ -151,7 +151,7 @@ fn damaged_files_are_refused_or_sound() {
         let mut bytes = bytes.clone();
         mutate(&mut bytes, &mut random);
         // Sometimes read as another format: names lie.
-        let format = if random.next() % 50 == 0 { Format::Obj } else { *format };
+        let format = if random.next().is_multiple_of(50) { Format::Obj } else { *format };
         let begin = Instant::now();
         let outcome = std::panic::catch_unwind(|| parse(format, &bytes));
         let took = begin.elapsed();

@@ -1,4 +1,5 @@
 //! Closest points.
+#![allow(clippy::unwrap_used)]
 
 use mesh_kernel::TriMesh;
 use mesh_kernel::glam::DVec3;

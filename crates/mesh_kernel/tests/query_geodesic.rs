@@ -1,4 +1,5 @@
 //! Shortest paths on the surface.
+#![allow(clippy::unwrap_used)]
 
 use std::f64::consts::{PI, TAU};
 

@@ -87,8 +87,8 @@ impl ClosestPoint {
                     Err(node) => {
                         let node = &self.bvh.nodes[node];
                         let mut bounds = Vec4::ZERO;
-                        for axis in 0..3 {
-                            let d = (node.lo[axis] - at[axis]).max(at[axis] - node.hi[axis]).max(Vec4::ZERO);
+                        for (at, (lo, hi)) in at.into_iter().zip(node.lo.iter().zip(&node.hi)) {
+                            let d = (*lo - at).max(at - *hi).max(Vec4::ZERO);
                             bounds += d * d;
                         }
                         let mut near = bounds.cmple(Vec4::splat(search.limit2)).bitmask();

@@ -39,7 +39,7 @@ impl Crossings {
     pub fn faces_crossing(&self, other: &TriMesh) -> Vec<(u32, u32)> {
         self.collect(other.faces.len(), |f, candidates, pairs| {
             let triangle = other.corners(f);
-            self.candidates(&triangle, candidates);
+            self.candidates(&triangle, 0, candidates);
             pairs.extend(
                 candidates.iter().filter(|g| triangles_meet(&triangle, &self.corners(**g))).map(|g| (f, *g)),
             );
@@ -50,10 +50,10 @@ impl Crossings {
     /// self-intersections, contacts, folds flat onto a neighbour, duplicates.
     pub fn self_crossing(&self) -> Vec<(u32, u32)> {
         self.collect(self.faces.len(), |f, candidates, pairs| {
-            self.candidates(&self.corners(f), candidates);
-            pairs.extend(
-                candidates.iter().filter(|g| **g > f && self.own_faces_meet(f, **g)).map(|g| (f, *g)),
-            );
+            // Every pair once; faces outside the hierarchy are never found.
+            self.candidates(&self.corners(f), if f < self.known { f + 1 } else { 0 }, candidates);
+            let meeting = candidates.iter().filter(|g| self.own_faces_meet(f, **g));
+            pairs.extend(meeting.map(|g| (f.min(*g), f.max(*g))));
         })
     }
 
@@ -79,8 +79,8 @@ impl Crossings {
         self.faces[f as usize].map(|v| self.positions[v as usize])
     }
 
-    /// Own faces whose boxes meet the box of `triangle`, ascending.
-    fn candidates(&self, triangle: &[DVec3; 3], found: &mut Vec<u32>) {
+    /// Own faces from number `first` on whose boxes meet the box of `triangle`, ascending.
+    fn candidates(&self, triangle: &[DVec3; 3], first: u32, found: &mut Vec<u32>) {
         found.clear();
         let [a, b, c] = *triangle;
         if !(a.is_finite() && b.is_finite() && c.is_finite()) || self.bvh.order.is_empty() {
@@ -104,7 +104,7 @@ impl Crossings {
                     stack.extend((0..4).filter(|k| apart & (1 << k) == 0).map(|k| node.children[k]));
                 }
                 Ok(leaf) => {
-                    for g in &self.bvh.order[leaf] {
+                    for g in self.bvh.order[leaf].iter().filter(|g| **g >= first) {
                         let [a, b, c] = self.corners(*g);
                         if a.min(b).min(c).cmple(hi).all() && a.max(b).max(c).cmpge(lo).all() {
                             found.push(*g);

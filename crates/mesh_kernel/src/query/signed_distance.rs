@@ -82,24 +82,24 @@ impl SignedDistance {
     /// Prepares the mesh: hierarchies, self-crossings, caps. O(n log n); nodes at the same place count as one.
     pub fn new(mesh: &TriMesh) -> Self {
         let welded = welded(mesh);
-        let adjacency = Adjacency::new(&welded);
+        let (adjacency, bvh) = rayon::join(|| Adjacency::new(&welded), || Bvh::new(&welded));
         let face_normals: Vec<DVec3> =
             (0..welded.faces.len() as u32).map(|f| welded.area_normal(f).normalize_or_zero()).collect();
         let (closed, caps) = close(&welded, &adjacency);
+        let (crossing, (winding, closest)) = rayon::join(
+            || Crossings::with_bvh(bvh.clone(), &closed, welded.faces.len()).self_crossing(),
+            || (WindingNumber::with_bvh(bvh.clone(), &welded), ClosestPoint::with_bvh(bvh.clone(), &welded)),
+        );
         let mut uncrossed: Vec<bool> = face_normals.iter().map(|n| *n != DVec3::ZERO).collect();
-        let bvh = Bvh::new(&welded);
-        for (f, g) in Crossings::with_bvh(bvh.clone(), &closed, welded.faces.len()).self_crossing() {
-            for face in [f, g] {
-                if let Some(uncrossed) = uncrossed.get_mut(face as usize) {
-                    *uncrossed = false;
-                }
+        for face in crossing.into_iter().flat_map(|(f, g)| [f, g]) {
+            if let Some(uncrossed) = uncrossed.get_mut(face as usize) {
+                *uncrossed = false;
             }
         }
-        let winding = WindingNumber::with_bvh(bvh.clone(), &welded);
         let cap_faces: Vec<[DVec3; 3]> =
             (welded.faces.len() as u32..closed.faces.len() as u32).map(|f| closed.corners(f)).collect();
         let mut query = Self {
-            closest: ClosestPoint::with_bvh(bvh, &welded),
+            closest,
             winding,
             cap_surface: None,
             edge_normals: vec![DVec3::ZERO; 3 * welded.faces.len()],
