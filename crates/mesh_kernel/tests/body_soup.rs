@@ -119,6 +119,9 @@ fn broken_meshes_are_refused() {
     assert_eq!((empty.surfaces().len(), empty.check().len()), (0, 0));
     // Groups beyond the faces, overlapping, empty.
     let mut odd = ok.clone();
-    odd.groups = vec![Group { name: "a".into(), faces: 0..9 }, Group { name: "b".into(), faces: 5..3 }];
+    odd.groups = vec![
+        Group { name: "a".into(), faces: 0..9 },
+        Group { name: "b".into(), faces: std::ops::Range { start: 5, end: 3 } },
+    ];
     assert_eq!(Body::from_tri_mesh(&odd).expect("one face").face_count(), 1);
 }
