@@ -57,9 +57,8 @@ pub(crate) struct SideConflict {
 impl Surface {
     /// Makes edges, in the order in which the faces name them first and in that direction, from the faces' nodes.
     ///
-    /// A side for which `separate` holds gets an edge of its own, whatever other edges join its nodes. All nodes must
-    /// be in range and a face's three different. O(faces).
-    pub(crate) fn build_edges(&mut self, separate: impl Fn(u32, usize) -> bool) -> Result<(), SideConflict> {
+    /// All nodes must be in range and a face's three different. O(faces).
+    pub(crate) fn build_edges(&mut self) -> Result<(), SideConflict> {
         let expected = self.faces.len() * 3 / 2 + self.positions.len() / 8 + 8;
         let mut index =
             EdgeIndex { head: vec![NONE; self.positions.len()], link: Vec::with_capacity(expected) };
@@ -70,14 +69,6 @@ impl Surface {
             let f = f as u32;
             let mut sides = [NONE; 3];
             for (i, (p, q)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
-                if separate(f, i) {
-                    // Linked to nothing, so that no other side finds it.
-                    index.link.push([NONE, NONE]);
-                    sides[i] = edges.len() as u32;
-                    edges.push([p, q]);
-                    edge_faces.push([f, NONE]);
-                    continue;
-                }
                 sides[i] = match index.find(p, q) {
                     Some(e) => {
                         let slot = usize::from(edges[e.index()][0] != p);

@@ -333,7 +333,7 @@ fn build_surface(spec: &SurfaceSpec) -> Result<Surface, BuildError> {
         faces: spec.faces.clone(),
         ..Surface::default()
     };
-    surface.build_edges(|_, _| false).map_err(|c| conflict(spec, c))?;
+    surface.build_edges().map_err(|c| conflict(spec, c))?;
     Ok(surface)
 }
 

@@ -3,63 +3,61 @@
 use std::collections::BTreeMap;
 
 use super::Body;
+use super::adjacency::EdgeIndex;
 use super::build::{BuildError, Run, RunJoint};
 use super::ids::{DirectedEdge, EdgeId, NONE};
-use super::surface::Surface;
+use super::surface::{NO_CHAIN, Surface};
 use super::weld::UnionFind;
 use crate::TriMesh;
 
 /// Sides of faces by the mesh's edges: side `3f + i` of face `f` lies on edge `of_side[3f + i]`.
 struct MeshEdges {
     of_side: Vec<u32>,
-    starts: Vec<u32>,
-    sides: Vec<u32>,
     nodes: Vec<[u32; 2]>,
+    /// The first two sides of every edge.
+    pairs: Vec<[u32; 2]>,
+    /// All sides of edges with more than two.
+    many: BTreeMap<u32, Vec<u32>>,
 }
 
 impl MeshEdges {
     fn new(mesh: &TriMesh) -> Self {
-        let mut head = vec![NONE; mesh.positions.len()];
-        let mut link: Vec<[u32; 2]> = Vec::with_capacity(mesh.faces.len() * 3 / 2 + 8);
-        let mut nodes: Vec<[u32; 2]> = Vec::with_capacity(mesh.faces.len() * 3 / 2 + 8);
-        let mut of_side = Vec::with_capacity(mesh.faces.len() * 3);
-        let mut counts: Vec<u32> = Vec::with_capacity(mesh.faces.len() * 3 / 2 + 8);
+        let expected = mesh.faces.len() * 3 / 2 + 8;
+        let mut index = EdgeIndex::new(mesh.positions.len(), &[]);
+        let mut edges = Self {
+            of_side: Vec::with_capacity(mesh.faces.len() * 3),
+            nodes: Vec::with_capacity(expected),
+            pairs: Vec::with_capacity(expected),
+            many: BTreeMap::new(),
+        };
         for &[a, b, c] in &mesh.faces {
             for (p, q) in [(a, b), (b, c), (c, a)] {
-                let (lo, hi) = if p < q { (p, q) } else { (q, p) };
-                let mut e = head[lo as usize];
-                while e != NONE && link[e as usize][0] != hi {
-                    e = link[e as usize][1];
+                let side = edges.of_side.len() as u32;
+                let Some(EdgeId(e)) = index.find(p, q) else {
+                    edges.of_side.push(edges.nodes.len() as u32);
+                    index.push(p, q);
+                    edges.nodes.push([p, q]);
+                    edges.pairs.push([side, NONE]);
+                    continue;
+                };
+                edges.of_side.push(e);
+                let pair = &mut edges.pairs[e as usize];
+                if pair[1] == NONE {
+                    pair[1] = side;
+                } else {
+                    edges.many.entry(e).or_insert_with(|| pair.to_vec()).push(side);
                 }
-                if e == NONE {
-                    e = link.len() as u32;
-                    link.push([hi, head[lo as usize]]);
-                    head[lo as usize] = e;
-                    nodes.push([p, q]);
-                    counts.push(0);
-                }
-                counts[e as usize] += 1;
-                of_side.push(e);
             }
         }
-        let mut starts = Vec::with_capacity(counts.len() + 1);
-        let mut at = 0;
-        starts.push(0);
-        for n in counts {
-            at += n;
-            starts.push(at);
-        }
-        let mut fill = starts.clone();
-        let mut sides = vec![0; of_side.len()];
-        for (s, &e) in of_side.iter().enumerate() {
-            sides[fill[e as usize] as usize] = s as u32;
-            fill[e as usize] += 1;
-        }
-        Self { of_side, starts, sides, nodes }
+        edges
     }
 
     fn sides(&self, e: u32) -> &[u32] {
-        &self.sides[self.starts[e as usize] as usize..self.starts[e as usize + 1] as usize]
+        let pair = &self.pairs[e as usize];
+        if pair[1] == NONE {
+            return &pair[..1];
+        }
+        if self.many.is_empty() { pair } else { self.many.get(&e).map_or(pair, Vec::as_slice) }
     }
 }
 
@@ -94,7 +92,7 @@ impl Body {
         let (uses, joint_edges) = edge_uses(&edges, &groups, mesh);
         // Corners of a face that are one node of the surface.
         let copies = Copies::new(mesh, &groups, &edges, &uses, &joint_edges);
-        let surfaces = make_surfaces(mesh, &groups, &copies, &edges, (&uses, &joint_edges))?;
+        let surfaces = make_surfaces(mesh, &groups, &copies, &edges, (&uses, &joint_edges));
         let mut joints = trace_joints(mesh, &groups, &edges, &uses, &surfaces);
         joints.extend(touching_nodes(mesh, &groups, &copies, &surfaces, &joints));
         Self::assemble(surfaces, joints)
@@ -150,7 +148,7 @@ fn one_surface(mesh: &TriMesh) -> Option<Surface> {
         }
         surface.faces.iter_mut().for_each(|f| *f = f.map(|v| numbers[v as usize]));
     }
-    surface.build_edges(|_, _| false).is_ok().then_some(surface)
+    surface.build_edges().is_ok().then_some(surface)
 }
 
 /// The surface of every face.
@@ -334,21 +332,36 @@ impl Copies {
     }
 }
 
-/// A surface a group; sides on cut edges get edges of their own.
+/// A surface a group; sides on cut edges get edges of their own. Edges are numbered as [`Surface::build_edges`] would, in
+/// the order in which the faces name them first, but found by those of the mesh.
 fn make_surfaces(
     mesh: &TriMesh,
     groups: &Groups,
     copies: &Copies,
     edges: &MeshEdges,
     (uses, joint_edges): (&Uses, &[bool]),
-) -> Result<Vec<Surface>, BuildError> {
-    let mut surfaces: Vec<Surface> =
-        groups.names.iter().map(|n| Surface { name: n.clone(), ..Surface::default() }).collect();
+) -> Vec<Surface> {
+    let mut sizes = vec![0; groups.names.len()];
+    groups.of_face.iter().for_each(|&g| sizes[g as usize] += 1);
+    let mut surfaces: Vec<Surface> = groups
+        .names
+        .iter()
+        .zip(sizes)
+        .map(|(name, faces)| Surface {
+            name: name.clone(),
+            faces: Vec::with_capacity(faces),
+            face_edges: Vec::with_capacity(faces),
+            ..Surface::default()
+        })
+        .collect();
     let mut numbers = vec![NONE; copies.set.len()];
-    let mut face_of: Vec<Vec<u32>> = vec![Vec::new(); surfaces.len()];
+    // The surface's number of an edge inside it; of an edge that several surfaces have, by surface.
+    let mut own = vec![NONE; edges.nodes.len()];
+    let mut shared: BTreeMap<(u32, u32), u32> = BTreeMap::new();
     for (f, face) in mesh.faces.iter().enumerate() {
-        let g = groups.of_face[f] as usize;
-        let s = &mut surfaces[g];
+        let g = groups.of_face[f];
+        let s = &mut surfaces[g as usize];
+        let local = s.faces.len() as u32;
         let nodes = [0, 1, 2].map(|i| {
             let number = &mut numbers[copies.set[3 * f + i] as usize];
             if *number == NONE {
@@ -357,22 +370,32 @@ fn make_surfaces(
             }
             *number
         });
+        let sides = [0, 1, 2].map(|i| {
+            let e = edges.of_side[3 * f + i];
+            let next = s.edges.len() as u32;
+            let known = if !joint_edges[e as usize] {
+                std::mem::replace(&mut own[e as usize], next)
+            } else if uses[&e].iter().any(|u| u.group == g && u.inner) {
+                shared.insert((e, g), next).unwrap_or(NONE)
+            } else {
+                NONE
+            };
+            if known == NONE {
+                s.edges.push([nodes[i], nodes[(i + 1) % 3]]);
+                s.edge_faces.push([local, NONE]);
+                return next;
+            }
+            // The second and last face of the edge; it runs the other way.
+            s.edge_faces[known as usize][1] = local;
+            known
+        });
         s.faces.push(nodes);
-        face_of[g].push(f as u32);
+        s.face_edges.push(sides);
     }
-    for (g, s) in surfaces.iter_mut().enumerate() {
-        let faces = &face_of[g];
-        let separate = |f: u32, i: usize| {
-            let e = edges.of_side[3 * faces[f as usize] as usize + i];
-            joint_edges[e as usize] && uses[&e].iter().any(|u| u.group == g as u32 && !u.inner)
-        };
-        s.build_edges(separate).map_err(|c| BuildError::EdgeConflict {
-            surface: groups.names[g].clone(),
-            faces: [c.same_way, c.face].map(|f| faces[f as usize]),
-            nodes: mesh.faces[faces[c.face as usize] as usize][..2].try_into().unwrap_or([0; 2]),
-        })?;
+    for s in &mut surfaces {
+        s.edge_chain = vec![NO_CHAIN; s.edges.len()];
     }
-    Ok(surfaces)
+    surfaces
 }
 
 /// Joint edges strung together to joints.

@@ -1,10 +1,10 @@
-//! Finite coordinates; degenerate and duplicate faces.
+//! Finite coordinates; degenerate faces.
 
 use glam::DVec3;
 
 use super::Defect;
 use crate::body::radial::collinear;
-use crate::body::{Body, EdgeId, FaceId, NONE, NodeId, SurfaceId};
+use crate::body::{Body, EdgeId, FaceId, NONE, NodeId};
 
 /// Whether all spatial positions are finite.
 pub(super) fn check_finite(body: &Body, defects: &mut Vec<Defect>) -> bool {
@@ -50,27 +50,6 @@ pub(super) fn check_degenerate(body: &Body, defects: &mut Vec<Defect>) {
             if s.edge_faces[e] == [NONE; 2] && s.positions[a as usize] == s.positions[b as usize] {
                 defects.push(Defect::EdgeWithoutLength { surface: id, edge: EdgeId(e as u32) });
             }
-        }
-    }
-}
-
-/// Faces with the same three welded nodes.
-pub(super) fn check_duplicates(body: &Body, defects: &mut Vec<Defect>) {
-    let weld = body.weld();
-    let mut faces: Vec<([u32; 3], SurfaceId, u32)> = Vec::with_capacity(body.face_count());
-    for (id, s) in body.surfaces() {
-        for (f, nodes) in s.faces.iter().enumerate() {
-            let mut nodes = nodes.map(|v| weld.node(id, v));
-            nodes.sort_unstable();
-            faces.push((nodes, id, f as u32));
-        }
-    }
-    faces.sort_unstable();
-    for pair in faces.windows(2) {
-        if pair[0].0 == pair[1].0 {
-            let surfaces = [pair[0].1, pair[1].1];
-            let faces = [pair[0].2, pair[1].2].map(FaceId);
-            defects.push(Defect::DuplicateFace { surfaces, faces });
         }
     }
 }

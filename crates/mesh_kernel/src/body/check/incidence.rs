@@ -1,14 +1,12 @@
 //! Nodes, edges and faces name each other, and faces are wound alike.
 
 use super::Defect;
-use crate::body::adjacency::EdgeIndex;
-use crate::body::{Body, EdgeId, FaceId, JointId, NONE, NodeId, Surface, SurfaceId};
+use crate::body::{Body, EdgeId, FaceId, NONE, NodeId, Surface, SurfaceId};
 
 pub(super) fn check(body: &Body, defects: &mut Vec<Defect>) {
     for (id, s) in body.surfaces() {
         edges(id, s, defects);
         faces(id, s, defects);
-        duplicate_edges(id, s, defects);
     }
 }
 
@@ -52,20 +50,5 @@ fn faces(id: SurfaceId, s: &Surface, defects: &mut Vec<Defect>) {
                 defects.push(Defect::FaceNotOnEdge { surface: id, face, edge, faces });
             }
         }
-    }
-}
-
-/// Edges with the same nodes are one edge twice, unless a joint makes them one (a slit of one edge's length).
-fn duplicate_edges(id: SurfaceId, s: &Surface, defects: &mut Vec<Defect>) {
-    let mut index = EdgeIndex::new(s.positions.len(), &[]);
-    let joint = |e: EdgeId| -> Option<JointId> { s.chain(s.edge_chain(e)?).joint };
-    for (e, &[a, b]) in s.edges.iter().enumerate() {
-        let edge = EdgeId(e as u32);
-        if let Some(other) = index.find(a, b)
-            && (joint(edge).is_none() || joint(edge) != joint(other))
-        {
-            defects.push(Defect::DuplicateEdge { surface: id, edges: [other, edge], nodes: [a, b] });
-        }
-        index.push(a, b);
     }
 }

@@ -6,6 +6,7 @@
 mod attributes;
 mod boundary;
 mod defect;
+mod duplicates;
 mod geometry;
 mod identity;
 mod ids;
@@ -21,9 +22,9 @@ use super::Body;
 impl Body {
     /// All broken rules, in order of families, then ids; empty for a sound body.
     ///
-    /// Checked are: array lengths and ids; incidence both ways, winding, duplicate edges; chains, loops and the boundary;
+    /// Checked are: array lengths and ids; incidence both ways, winding; chains, loops and the boundary;
     /// joints: lengths, directions, coincidence, radial order against the geometry (exact); attributes; finite
-    /// coordinates, degenerate and duplicate faces (exact); the identity of [`Body::counts`].
+    /// coordinates, degenerate (exact) and duplicate faces and edges; the identity of [`Body::counts`].
     ///
     /// O(faces · log faces).
     pub fn check(&self) -> Vec<Defect> {
@@ -47,7 +48,7 @@ impl Body {
         if !joined {
             return defects;
         }
-        geometry::check_duplicates(self, &mut defects);
+        duplicates::check(self, &mut defects);
         if finite {
             joints::check_radial_order(self, &mut defects);
             geometry::check_degenerate(self, &mut defects);
