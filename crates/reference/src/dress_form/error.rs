@@ -70,4 +70,10 @@ pub enum FormError {
         /// As built, cm.
         got: f64,
     },
+    /// The surface would fold or tear.
+    #[error("no smooth body has these measurements together: the surface folds near {height:.0} cm above the floor")]
+    Folded {
+        /// Where, cm.
+        height: f64,
+    },
 }

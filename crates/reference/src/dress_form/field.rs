@@ -117,8 +117,11 @@ pub(super) struct Field {
     pub(super) cuts: Vec<Cut>,
 }
 
-/// Fall of the shoulder before and behind its ridge: over the square of the distance, times stature.
-const ROOF_BEND: f64 = 8.0;
+/// How deep the shoulder falls before and behind its ridge, share of stature.
+const ROOF_FALL: f64 = 0.05;
+
+/// Distance from the ridge at which half of that is reached, share of stature.
+const ROOF_REACH: f64 = 0.079;
 
 /// Index of the arm plate in [`Field::cuts`].
 pub(super) const ARM: usize = 1;
@@ -231,8 +234,8 @@ impl Field {
         let ribs = self.sections.at(levels.bust);
         let outline = ribs.outline();
         let want = m.bust * 10.0;
-        let x = (1.0 * m.bust).min(0.565 * ribs.half_width);
-        let side = 0.41 * ribs.half_width;
+        let x = (1.0 * m.bust).min(0.56 * ribs.half_width);
+        let side = 0.39 * ribs.half_width;
         let skin = ribs.front_at(x);
         const SINK: f64 = 0.42;
         let shape = |rise: f64| {
@@ -266,7 +269,7 @@ impl Field {
         let below = levels.bust - levels.underbust;
         // As long upward as leaves the bust point the fullest.
         let above = levels.bust + 0.40 * (levels.armpit - levels.bust);
-        let (mut short, mut long) = (1.15 * below, 1.75 * below);
+        let (mut short, mut long) = ((1.15 * below).max(0.7 * low), (1.75 * below).max(low));
         for _ in 0..30 {
             let middle = 0.5 * (short + long);
             *(if girth_at(low, above, middle) < 0.995 * want { &mut short } else { &mut long }) = middle;
@@ -331,10 +334,20 @@ impl Field {
             let soft = 0.03 * h;
             let x = (p.x * p.x + soft * soft).sqrt();
             // The shoulder falls off before and behind its ridge.
-            let (bend, dz) = (ROOF_BEND / h, p.z - self.roof_ridge);
-            let slope = self.roof[1].hypot(2.0 * bend * dz);
-            let roof = (p.y - self.roof[0] + self.roof[1] * x + bend * dz * dz) / slope.hypot(1.0);
+            let (fall, reach) = (ROOF_FALL * h, ROOF_REACH * h);
+            let dz = p.z - self.roof_ridge;
+            let sum = dz * dz + reach * reach;
+            let drop = fall * dz * dz / sum;
+            let slope = self.roof[1].hypot(2.0 * fall * dz * reach * reach / (sum * sum));
+            let roof = (p.y - self.roof[0] + self.roof[1] * x + drop) / slope.hypot(1.0);
             f = -smooth_min(-f, -roof, 0.032 * h);
+            // Wide ribs on narrow shoulders end inside the arm plate.
+            if let Some(plate) = self.cuts.get(ARM) {
+                let start = self.levels.armpit - 0.045 * h;
+                let on = smooth_step((p.y - start) / (0.026 * h));
+                let side = plate.over(p) + 0.004 * h - (1.0 - on) * 0.2 * h;
+                f = -smooth_min(-f, -side, 0.012 * h);
+            }
             // The arm ends a little beyond its plate, wherever that is.
             let arm = match self.cuts.get(ARM) {
                 Some(plate) => self.arm.distance(p).max(plate.over(p) - 0.015 * h),

@@ -103,6 +103,9 @@ impl DressForm {
             tape::warp(&mut half, &field, &factor);
         }
         tape::check(&half, &levels, &resolved)?;
+        if let Some(place) = half.fault() {
+            return Err(FormError::Folded { height: place.y / 10.0 });
+        }
         let levels = as_built(levels, &half);
         let (mesh, labels) = mirrored(&half);
         let plates = plates(&mesh, &labels, &field);

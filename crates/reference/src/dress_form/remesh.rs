@@ -156,7 +156,7 @@ fn flip_to_regular(patch: &mut Patch) {
             };
             let now = off(a, 0) + off(b, 0) + off(c, 0) + off(d, 0);
             let then = off(a, -1) + off(b, -1) + off(c, 1) + off(d, 1);
-            let worst = |t: [[u32; 3]; 2]| t.map(|t| quality(patch, t)).into_iter().fold(f64::MAX, f64::min);
+            let worst = |t: [[u32; 3]; 2]| t.map(|t| patch.quality(t)).into_iter().fold(f64::MAX, f64::min);
             let (old, new) = (worst([[a, b, c], [b, a, d]]), worst([[a, d, c], [d, b, c]]));
             // Fewer odd valences, but no sliver for it; and slivers go whatever the valence.
             let better = (then < now && new > (0.5 * old).min(0.3)) || (then <= now + 4 && old < 0.3 && new > 1.5 * old);
@@ -187,14 +187,6 @@ fn flip_to_regular(patch: &mut Patch) {
             return;
         }
     }
-}
-
-/// Twice the inradius over the circumradius: 1 for an equilateral triangle, 0 for a degenerate one.
-pub(super) fn quality(patch: &Patch, t: [u32; 3]) -> f64 {
-    let [p, q, r] = t.map(|v| patch.positions[v as usize]);
-    let (a, b, c) = (p.distance(q), q.distance(r), r.distance(p));
-    let product = a * b * c;
-    if product == 0.0 { 0.0 } else { ((b + c - a) * (c + a - b) * (a + b - c)).max(0.0) / product }
 }
 
 /// One step of every node towards the middle of its neighbours, within what holds it, then back to the surface.

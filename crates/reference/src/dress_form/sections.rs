@@ -117,7 +117,7 @@ fn depths(figure: Figure) -> [[f64; 2]; 6] {
 /// Girth of the trunk without breasts at bust level and at the armpit, between underbust (0) and bust (1).
 fn rib_shares(figure: Figure) -> [f64; 2] {
     match figure {
-        Figure::Woman => [0.45, 0.43],
+        Figure::Woman => [0.40, 0.42],
         Figure::Man => [1.0, 0.92],
         Figure::Child => [1.0, 0.85],
     }
@@ -249,7 +249,7 @@ impl Sections {
             (levels.armpit, at_armpit),
         ];
         // Where the waist is no narrower than the ribs, the natural waist is the crease below the lowest roll.
-        if m.waist > 0.985 * m.underbust && m.waist < m.high_hip {
+        if m.waist > 0.985 * m.underbust && m.waist < CREASE * m.underbust && m.waist < m.high_hip {
             let roll = cm * (m.waist.max(m.underbust) + 0.012 * m.waist);
             points.push((levels.waist + 0.45 * (levels.underbust - levels.waist), roll));
         }
@@ -277,6 +277,9 @@ impl Sections {
 
 /// Share of the hip's tape that the trunk's section makes; the seat's own swelling makes the rest.
 const SEAT_SHARE: f64 = 0.983;
+
+/// A waist up to this times the underbust is a crease between rolls; a larger one is a belly that goes over into the ribs.
+pub(super) const CREASE: f64 = 1.04;
 
 /// Both legs as one parted section.
 struct Legs {

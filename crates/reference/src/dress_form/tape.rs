@@ -7,6 +7,7 @@ use super::hull::hull_length;
 use super::levels::Levels;
 use super::measurements::Resolved;
 use super::patch::Patch;
+use super::sections::CREASE;
 
 /// Tape girths of the whole form, mirrored from its half, at ascending heights; 0 where nothing is cut. O(faces · levels cut).
 pub(super) fn girths(half: &Patch, heights: &[f64]) -> Vec<f64> {
@@ -110,7 +111,8 @@ pub(super) fn level_extremes(half: &Patch, field: &Field, m: &Resolved) -> Curve
             if y > levels.underbust && y < levels.armpit - UNDERARM * h && m.bust > m.underbust {
                 goal = goal.min(bust - arc(y, levels.bust));
             }
-            if y > levels.hip && y < levels.underbust && waist < hip {
+            let belly = y > levels.waist && m.waist > CREASE * m.underbust;
+            if y > levels.hip && y < levels.underbust && waist < hip && !belly {
                 let floor = match (y > levels.waist, y > ribs) {
                     (false, _) => (waist + arc(y, levels.waist)).min(hip),
                     (true, false) => (waist + arc(y, levels.waist)).min(underbust.max(waist)),
