@@ -158,7 +158,8 @@ impl Field {
         // Arm plate from the shoulder point to the armpit.
         let chest = sections.at(levels.armpit);
         let height = levels.shoulder - levels.armpit;
-        let under_x = (chest.half_width + 0.006 * h).clamp(shoulder_x - 0.42 * height, shoulder_x + 0.15 * height);
+        let under_x =
+            (chest.half_width + 0.006 * h).clamp(shoulder_x - 0.42 * height, shoulder_x + 0.15 * height);
         let top = DVec3::new(shoulder_x, levels.shoulder, 0.0);
         let bottom = DVec3::new(under_x, levels.armpit, 0.0);
         let along = (top - bottom).normalize();
@@ -169,7 +170,8 @@ impl Field {
         let cos = arm_axis.dot(plate_normal);
         let across = DVec3::new(-arm_axis.y, arm_axis.x, 0.0);
         let half_height = 0.47 * (top - bottom).length() * cos;
-        let half_depth = (m.upper_arm * 10.0 / std::f64::consts::TAU * 1.0).clamp(0.60 * half_height, 1.15 * half_height);
+        let half_depth =
+            (m.upper_arm * 10.0 / std::f64::consts::TAU * 1.0).clamp(0.60 * half_height, 1.15 * half_height);
         let arm = Stub {
             origin: middle - arm_axis * (0.9 * half_height),
             axis: arm_axis,
@@ -197,7 +199,11 @@ impl Field {
             roof,
             roof_ridge: chest.centre - 0.010 * h,
             head: head.then(|| {
-                let size = if m.figure == Figure::Child { 1.0 + 0.25 * ((150.0 - m.height) / 70.0).clamp(0.0, 1.0) } else { 1.0 };
+                let size = if m.figure == Figure::Child {
+                    1.0 + 0.25 * ((150.0 - m.height) / 70.0).clamp(0.0, 1.0)
+                } else {
+                    1.0
+                };
                 let r = DVec3::new(0.046, 0.066, 0.057) * h * size;
                 (DVec3::new(0.0, h - r.y, neck_centre + 0.022 * h), r)
             }),

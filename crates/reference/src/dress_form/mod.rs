@@ -156,7 +156,9 @@ fn mirrored(half: &Patch) -> (TriMesh, Vec<u8>) {
         })
         .collect();
     let mut faces = half.faces.clone();
-    faces.extend(half.faces.iter().map(|&[a, b, c]| [other[a as usize], other[c as usize], other[b as usize]]));
+    faces.extend(
+        half.faces.iter().map(|&[a, b, c]| [other[a as usize], other[c as usize], other[b as usize]]),
+    );
     let mut labels = half.label.clone();
     labels.extend_from_slice(&half.label);
     (TriMesh::new(positions, faces), labels)

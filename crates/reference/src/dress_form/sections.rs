@@ -59,7 +59,9 @@ impl Section {
     pub(super) fn outline(&self) -> Vec<[f64; 2]> {
         const QUARTER: usize = 32;
         let mut points = Vec::with_capacity(4 * QUARTER + 4);
-        for (sign, part, power) in [(1.0, self.part_front, self.power_front), (-1.0, self.part_back, self.power_back)] {
+        for (sign, part, power) in
+            [(1.0, self.part_front, self.power_front), (-1.0, self.part_back, self.power_back)]
+        {
             let a = self.half_width / (1.0 + part);
             for i in 0..=QUARTER {
                 let (s, c) = (i as f64 / QUARTER as f64 * std::f64::consts::FRAC_PI_2).sin_cos();
@@ -108,9 +110,15 @@ fn centres(figure: Figure) -> ByLevel {
 /// normal weight, and how fast each grows with girth over stature above 0.44.
 fn depths(figure: Figure) -> [[f64; 2]; 6] {
     match figure {
-        Figure::Woman => [[0.600, 0.45], [0.660, 0.8], [0.710, 0.9], [0.680, 0.6], [0.665, 0.55], [0.635, 0.5]],
-        Figure::Man => [[0.620, 0.45], [0.705, 0.8], [0.700, 1.0], [0.705, 0.6], [0.690, 0.45], [0.650, 0.45]],
-        Figure::Child => [[0.630, 0.45], [0.680, 0.8], [0.690, 1.0], [0.730, 0.6], [0.720, 0.45], [0.680, 0.45]],
+        Figure::Woman => {
+            [[0.600, 0.45], [0.660, 0.8], [0.710, 0.9], [0.680, 0.6], [0.665, 0.55], [0.635, 0.5]]
+        }
+        Figure::Man => {
+            [[0.620, 0.45], [0.705, 0.8], [0.700, 1.0], [0.705, 0.6], [0.690, 0.45], [0.650, 0.45]]
+        }
+        Figure::Child => {
+            [[0.630, 0.45], [0.680, 0.8], [0.690, 1.0], [0.730, 0.6], [0.720, 0.45], [0.680, 0.45]]
+        }
     }
 }
 
@@ -128,7 +136,8 @@ impl Sections {
         let h = levels.stature;
         let parting = 0.0055 * h;
         let normal = depths(m.figure);
-        let depth = |i: usize, girth: f64| (normal[i][0] + normal[i][1] * (girth / h - 0.44).max(0.0)).min(0.92);
+        let depth =
+            |i: usize, girth: f64| (normal[i][0] + normal[i][1] * (girth / h - 0.44).max(0.0)).min(0.92);
         // A stout body grows forward more than backward.
         let stout = ((m.waist * 10.0 / h) - 0.46).max(0.0);
         let forward = |y: f64| {
@@ -172,14 +181,20 @@ impl Sections {
         let girth = Self::girths(m, levels, &legs);
         let trunk_levels =
             [levels.hip, levels.high_hip, levels.waist, levels.underbust, levels.bust, levels.armpit];
-        let mut ratio: Vec<(f64, f64)> = (0..6)
-            .map(|i| (trunk_levels[i], depth(i, girth.get(trunk_levels[i]))))
-            .collect();
+        let mut ratio: Vec<(f64, f64)> =
+            (0..6).map(|i| (trunk_levels[i], depth(i, girth.get(trunk_levels[i])))).collect();
         // The arms hang outside the ribs: wide chests on narrow shoulders are deep.
         let limit = m.shoulder_width * 5.0 + 0.06 * (levels.shoulder - levels.armpit);
         while ratio[5].1 < 0.95 {
             let unit = Section { half_width: 1.0, half_depth: ratio[5].1, ..hip_section };
-            let whole = Section { centre: 0.0, part_front: 0.0, part_back: 0.0, power_front: 2.3, power_back: 2.5, ..unit };
+            let whole = Section {
+                centre: 0.0,
+                part_front: 0.0,
+                part_back: 0.0,
+                power_front: 2.3,
+                power_back: 2.5,
+                ..unit
+            };
             if girth.get(levels.armpit) / hull_length(&mut whole.outline()) <= limit {
                 break;
             }
@@ -228,13 +243,19 @@ impl Sections {
             .collect();
         // Less for the parting, which opens the crotch.
         let spread = 0.0085 * h / table_step;
-        Self { step: table_step, spread, table: smoothed(&smoothed(&table, spread, &[0, 1, 2, 5, 6]), 0.5 * spread, &[3, 4]), parting }
+        Self {
+            step: table_step,
+            spread,
+            table: smoothed(&smoothed(&table, spread, &[0, 1, 2, 5, 6]), 0.5 * spread, &[3, 4]),
+            parting,
+        }
     }
 
     /// Girth by height of the trunk without breasts.
     fn girths(m: &Resolved, levels: &Levels, legs: &Legs) -> Curve {
         let cm = 10.0;
-        let [at_bust, at_armpit] = rib_shares(m.figure).map(|t| cm * (m.underbust + t * (m.bust - m.underbust)));
+        let [at_bust, at_armpit] =
+            rib_shares(m.figure).map(|t| cm * (m.underbust + t * (m.bust - m.underbust)));
         let both = |y: f64| hull_length(&mut legs.section(y).outline());
         let below = levels.crotch - 0.03 * levels.stature;
         let hip = cm * m.hip;
@@ -329,7 +350,10 @@ impl Legs {
         let outer = |a: f64, y: f64| (y, 2.0 * a + gap.get(y));
         let from_girth = |aspect: f64, y: f64| {
             let one = leg_section(1.0, 1.0 / aspect, 0.0, 1.0);
-            outer(girth.get(y) / hull_length(&mut Section { part_front: 0.0, part_back: 0.0, ..one }.outline()), y)
+            outer(
+                girth.get(y) / hull_length(&mut Section { part_front: 0.0, part_back: 0.0, ..one }.outline()),
+                y,
+            )
         };
         let above_knee = levels.knee + 0.10 * h;
         let half_width = Curve::through(&[
@@ -396,7 +420,12 @@ impl Legs {
 
     fn section(&self, y: f64) -> Section {
         let a = self.one_half_width(y);
-        leg_section(self.half_width.get(y), self.half_depth.get(y), self.centre.get(y), 1.0 + self.gap.get(y) / a)
+        leg_section(
+            self.half_width.get(y),
+            self.half_depth.get(y),
+            self.centre.get(y),
+            1.0 + self.gap.get(y) / a,
+        )
     }
 }
 
