@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 
 use dress_form_tape::tapes;
 use mesh_kernel::TriMesh;
+use rayon::prelude::*;
 use reference::dress_form::{
     DressForm, Figure, FormError, FormOptions, HEADLESS_HEIGHT_RATIO, Measurements, Preset, presets,
 };
@@ -20,13 +21,13 @@ fn check_girths(name: &str, form: &DressForm) {
     let levels = [l.bust, l.underbust, l.waist, l.high_hip, l.hip];
     let asked = [m.bust, m.underbust, m.waist, m.high_hip, m.hip].map(|v| 10.0 * v);
     let within = [0.2, 1.0, 0.2, 1.0, 0.2];
-    for (i, got) in tapes(mesh, &levels).into_iter().enumerate() {
+    for (i, got) in tapes(mesh, &levels, 1440).into_iter().enumerate() {
         let error = (got - asked[i]).abs();
         assert!(error < within[i], "{name}: level {i} measures {got} instead of {}", asked[i]);
     }
     let search = |low: f64, high: f64| {
         let heights: Vec<f64> = (0..).map(|i| low + 5.0 * f64::from(i)).take_while(|y| *y < high).collect();
-        let girths = tapes(mesh, &heights);
+        let girths = tapes(mesh, &heights, 240);
         (girths.iter().copied().fold(f64::MAX, f64::min), girths.iter().copied().fold(0.0, f64::max))
     };
     if m.waist <= m.hip {
@@ -39,7 +40,11 @@ fn check_girths(name: &str, form: &DressForm) {
     }
     if m.waist <= m.underbust.min(m.hip) {
         let (narrowest, _) = search(l.hip, l.underbust);
-        assert!((narrowest - asked[2]).abs() < 2.0, "{name}: narrowest waist {narrowest} instead of {}", asked[2]);
+        assert!(
+            (narrowest - asked[2]).abs() < 2.0,
+            "{name}: narrowest waist {narrowest} instead of {}",
+            asked[2]
+        );
     }
     let [low, high] = mesh.bounds().unwrap();
     assert!(low.y.abs() < 1e-9, "{name}: stands at {}", low.y);
@@ -86,12 +91,17 @@ fn check_mesh(name: &str, mesh: &TriMesh) {
 #[test]
 fn presets_measure_what_they_say() {
     assert!(presets().len() > 40);
-    for preset in presets() {
+    presets().par_iter().for_each(|preset| {
         let form = build(&preset.measurements);
         check_girths(&preset.name, &form);
         check_mesh(&preset.name, &form.mesh);
-        assert!((15_000..30_000).contains(&form.mesh.faces.len()), "{}: {}", preset.name, form.mesh.faces.len());
-    }
+        assert!(
+            (15_000..30_000).contains(&form.mesh.faces.len()),
+            "{}: {}",
+            preset.name,
+            form.mesh.faces.len()
+        );
+    });
     assert_eq!(Preset::find("EU 38").unwrap().measurements.bust, Some(88.0));
     assert!(Preset::find("size 99").is_none());
 }
@@ -139,7 +149,7 @@ fn person(dice: &mut Dice, figure: Figure) -> Measurements {
 #[test]
 fn plausible_people_measure_what_was_asked() {
     let mut dice = Dice(20_260_101);
-    let each: usize = std::env::var("TOILE_FORMS").ok().and_then(|n| n.parse().ok()).unwrap_or(8);
+    let each: usize = std::env::var("TOILE_FORMS").ok().and_then(|n| n.parse().ok()).unwrap_or(5);
     for figure in [Figure::Woman, Figure::Man, Figure::Child] {
         for i in 0..each {
             let m = person(&mut dice, figure);
@@ -209,7 +219,8 @@ fn what_nobody_is_is_refused() {
 
 #[test]
 fn measurement_files_take_known_names_only() {
-    let m: Measurements = serde_json::from_str(r#"{"figure": "man", "bust": 100, "shoulder_width": 42}"#).unwrap();
+    let m: Measurements =
+        serde_json::from_str(r#"{"figure": "man", "bust": 100, "shoulder_width": 42}"#).unwrap();
     assert_eq!((m.figure, m.bust, m.shoulder_width), (Figure::Man, Some(100.0), Some(42.0)));
     assert!(serde_json::from_str::<Measurements>(r#"{"busts": 100}"#).is_err());
     let resolved = m.resolve().unwrap();

@@ -19,7 +19,8 @@ impl Curve {
         let at: Vec<f64> = points.iter().map(|p| p.0).collect();
         let value: Vec<f64> = points.iter().map(|p| p.1).collect();
         let width = |i: usize| at[i + 1] - at[i];
-        let secant: Vec<f64> = (0..n.saturating_sub(1)).map(|i| (value[i + 1] - value[i]) / width(i)).collect();
+        let secant: Vec<f64> =
+            (0..n.saturating_sub(1)).map(|i| (value[i + 1] - value[i]) / width(i)).collect();
         let mut slope = vec![0.0; n];
         for i in 1..n.saturating_sub(1) {
             let (left, right) = (secant[i - 1], secant[i]);

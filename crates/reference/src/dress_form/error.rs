@@ -19,7 +19,9 @@ pub enum FormError {
         value: f64,
     },
     /// Outside the range that people have.
-    #[error("{name} is {value:.1} cm, outside {low:.1} to {high:.1} cm; check the number and its unit (centimetres)")]
+    #[error(
+        "{name} is {value:.1} cm, outside {low:.1} to {high:.1} cm; check the number and its unit (centimetres)"
+    )]
     OutOfRange {
         /// Which measurement.
         name: &'static str,
@@ -61,7 +63,9 @@ pub enum FormError {
     },
     /// The girth of the finished mesh does not come near enough to the measurement: the set contradicts itself in a way that
     /// the plausible ratios do not show.
-    #[error("the {name} of the form became {got:.2} cm instead of {wanted:.2} cm: these measurements do not fit one body")]
+    #[error(
+        "the {name} of the form became {got:.2} cm instead of {wanted:.2} cm: these measurements do not fit one body"
+    )]
     NotReached {
         /// Which measurement.
         name: &'static str,
@@ -69,5 +73,13 @@ pub enum FormError {
         wanted: f64,
         /// As built, cm.
         got: f64,
+    },
+    /// The surface would fold or tear.
+    #[error(
+        "no smooth body has these measurements together: the surface folds near {height:.0} cm above the floor"
+    )]
+    Folded {
+        /// Where, cm.
+        height: f64,
     },
 }

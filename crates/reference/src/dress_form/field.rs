@@ -117,8 +117,11 @@ pub(super) struct Field {
     pub(super) cuts: Vec<Cut>,
 }
 
-/// Fall of the shoulder before and behind its ridge: over the square of the distance, times stature.
-const ROOF_BEND: f64 = 8.0;
+/// How deep the shoulder falls before and behind its ridge, share of stature.
+const ROOF_FALL: f64 = 0.05;
+
+/// Distance from the ridge at which half of that is reached, share of stature.
+const ROOF_REACH: f64 = 0.079;
 
 /// Index of the arm plate in [`Field::cuts`].
 pub(super) const ARM: usize = 1;
@@ -155,7 +158,8 @@ impl Field {
         // Arm plate from the shoulder point to the armpit.
         let chest = sections.at(levels.armpit);
         let height = levels.shoulder - levels.armpit;
-        let under_x = (chest.half_width + 0.006 * h).clamp(shoulder_x - 0.42 * height, shoulder_x + 0.15 * height);
+        let under_x =
+            (chest.half_width + 0.006 * h).clamp(shoulder_x - 0.42 * height, shoulder_x + 0.15 * height);
         let top = DVec3::new(shoulder_x, levels.shoulder, 0.0);
         let bottom = DVec3::new(under_x, levels.armpit, 0.0);
         let along = (top - bottom).normalize();
@@ -166,7 +170,8 @@ impl Field {
         let cos = arm_axis.dot(plate_normal);
         let across = DVec3::new(-arm_axis.y, arm_axis.x, 0.0);
         let half_height = 0.47 * (top - bottom).length() * cos;
-        let half_depth = (m.upper_arm * 10.0 / std::f64::consts::TAU * 1.0).clamp(0.60 * half_height, 1.15 * half_height);
+        let half_depth =
+            (m.upper_arm * 10.0 / std::f64::consts::TAU * 1.0).clamp(0.60 * half_height, 1.15 * half_height);
         let arm = Stub {
             origin: middle - arm_axis * (0.9 * half_height),
             axis: arm_axis,
@@ -194,7 +199,11 @@ impl Field {
             roof,
             roof_ridge: chest.centre - 0.010 * h,
             head: head.then(|| {
-                let size = if m.figure == Figure::Child { 1.0 + 0.25 * ((150.0 - m.height) / 70.0).clamp(0.0, 1.0) } else { 1.0 };
+                let size = if m.figure == Figure::Child {
+                    1.0 + 0.25 * ((150.0 - m.height) / 70.0).clamp(0.0, 1.0)
+                } else {
+                    1.0
+                };
                 let r = DVec3::new(0.046, 0.066, 0.057) * h * size;
                 (DVec3::new(0.0, h - r.y, neck_centre + 0.022 * h), r)
             }),
@@ -231,8 +240,8 @@ impl Field {
         let ribs = self.sections.at(levels.bust);
         let outline = ribs.outline();
         let want = m.bust * 10.0;
-        let x = (1.0 * m.bust).min(0.565 * ribs.half_width);
-        let side = 0.41 * ribs.half_width;
+        let x = (1.0 * m.bust).min(0.56 * ribs.half_width);
+        let side = 0.39 * ribs.half_width;
         let skin = ribs.front_at(x);
         const SINK: f64 = 0.42;
         let shape = |rise: f64| {
@@ -266,7 +275,7 @@ impl Field {
         let below = levels.bust - levels.underbust;
         // As long upward as leaves the bust point the fullest.
         let above = levels.bust + 0.40 * (levels.armpit - levels.bust);
-        let (mut short, mut long) = (1.15 * below, 1.75 * below);
+        let (mut short, mut long) = ((1.15 * below).max(0.7 * low), (1.75 * below).max(low));
         for _ in 0..30 {
             let middle = 0.5 * (short + long);
             *(if girth_at(low, above, middle) < 0.995 * want { &mut short } else { &mut long }) = middle;
@@ -331,10 +340,20 @@ impl Field {
             let soft = 0.03 * h;
             let x = (p.x * p.x + soft * soft).sqrt();
             // The shoulder falls off before and behind its ridge.
-            let (bend, dz) = (ROOF_BEND / h, p.z - self.roof_ridge);
-            let slope = self.roof[1].hypot(2.0 * bend * dz);
-            let roof = (p.y - self.roof[0] + self.roof[1] * x + bend * dz * dz) / slope.hypot(1.0);
+            let (fall, reach) = (ROOF_FALL * h, ROOF_REACH * h);
+            let dz = p.z - self.roof_ridge;
+            let sum = dz * dz + reach * reach;
+            let drop = fall * dz * dz / sum;
+            let slope = self.roof[1].hypot(2.0 * fall * dz * reach * reach / (sum * sum));
+            let roof = (p.y - self.roof[0] + self.roof[1] * x + drop) / slope.hypot(1.0);
             f = -smooth_min(-f, -roof, 0.032 * h);
+            // Wide ribs on narrow shoulders end inside the arm plate.
+            if let Some(plate) = self.cuts.get(ARM) {
+                let start = self.levels.armpit - 0.045 * h;
+                let on = smooth_step((p.y - start) / (0.026 * h));
+                let side = plate.over(p) + 0.004 * h - (1.0 - on) * 0.2 * h;
+                f = -smooth_min(-f, -side, 0.012 * h);
+            }
             // The arm ends a little beyond its plate, wherever that is.
             let arm = match self.cuts.get(ARM) {
                 Some(plate) => self.arm.distance(p).max(plate.over(p) - 0.015 * h),

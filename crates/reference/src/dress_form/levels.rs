@@ -75,7 +75,11 @@ impl Levels {
         let [nape, neck_side, front_neck, shoulder, armpit, bust, underbust, waist, hip, crotch, knee] =
             shares(m.figure, m.height).map(|s| s * stature);
         // A full bust lies a little lower.
-        let drop = if m.figure == Figure::Woman { ((m.bust - m.underbust) / m.bust - 0.16).clamp(0.0, 0.1) * 0.12 } else { 0.0 };
+        let drop = if m.figure == Figure::Woman {
+            ((m.bust - m.underbust) / m.bust - 0.16).clamp(0.0, 0.1) * 0.12
+        } else {
+            0.0
+        };
         let (bust, underbust) = (bust - drop * stature, underbust - 0.6 * drop * stature);
         // The back length moves the waist, within what leaves room for ribs above and hips below.
         let by_back = nape - m.back_length * 10.0 / BACK_ARC;

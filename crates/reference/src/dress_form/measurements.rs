@@ -129,7 +129,9 @@ impl Measurements {
             self.waist.map(|v| v / average_waist),
             self.hip.map(|v| v / average_hip),
             // An underbust alone still says how large the trunk is.
-            self.underbust.filter(|_| self.bust.is_none()).map(|v| v / (average_bust * underbust_share(figure, average_bust))),
+            self.underbust
+                .filter(|_| self.bust.is_none())
+                .map(|v| v / (average_bust * underbust_share(figure, average_bust))),
         ]
         .into_iter()
         .flatten()
@@ -338,7 +340,12 @@ impl Resolved {
         }
         let [least, most] = [self.waist.min(self.hip) * 0.97, self.waist.max(self.hip) * 1.03];
         if !(self.high_hip >= least && self.high_hip <= most) {
-            return Err(FormError::OutOfRange { name: "high_hip", value: self.high_hip, low: least, high: most });
+            return Err(FormError::OutOfRange {
+                name: "high_hip",
+                value: self.high_hip,
+                low: least,
+                high: most,
+            });
         }
         Ok(())
     }

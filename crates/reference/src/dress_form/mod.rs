@@ -103,6 +103,9 @@ impl DressForm {
             tape::warp(&mut half, &field, &factor);
         }
         tape::check(&half, &levels, &resolved)?;
+        if let Some(place) = half.fault() {
+            return Err(FormError::Folded { height: place.y / 10.0 });
+        }
         let levels = as_built(levels, &half);
         let (mesh, labels) = mirrored(&half);
         let plates = plates(&mesh, &labels, &field);
@@ -153,7 +156,9 @@ fn mirrored(half: &Patch) -> (TriMesh, Vec<u8>) {
         })
         .collect();
     let mut faces = half.faces.clone();
-    faces.extend(half.faces.iter().map(|&[a, b, c]| [other[a as usize], other[c as usize], other[b as usize]]));
+    faces.extend(
+        half.faces.iter().map(|&[a, b, c]| [other[a as usize], other[c as usize], other[b as usize]]),
+    );
     let mut labels = half.label.clone();
     labels.extend_from_slice(&half.label);
     (TriMesh::new(positions, faces), labels)

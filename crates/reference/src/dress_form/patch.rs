@@ -279,4 +279,39 @@ impl Patch {
         }
         out.extend(closing);
     }
+
+    /// A place where the patch is no smooth disk with its border in the plane of symmetry: a border elsewhere, a sliver, a
+    /// skin that folds back.
+    pub(super) fn fault(&self) -> Option<DVec3> {
+        let mut edges = 0i64;
+        for e in 0..self.twin.len() as u32 {
+            let (a, b) = (self.positions[self.from(e) as usize], self.positions[self.to(e) as usize]);
+            let t = self.twin[e as usize];
+            if t == NONE {
+                edges += 1;
+                if a.x != 0.0 || b.x != 0.0 {
+                    return Some(a);
+                }
+                continue;
+            }
+            edges += i64::from(e < t);
+            let (m, n) = (self.normal(e / 3), self.normal(t / 3));
+            if m.dot(n) < -0.7 * m.length() * n.length() {
+                return Some(a);
+            }
+        }
+        if let Some(f) = (0..self.faces.len()).find(|&f| self.quality(self.faces[f]) < 0.05) {
+            return Some(self.positions[self.faces[f][0] as usize]);
+        }
+        let disk = self.positions.len() as i64 - edges + self.faces.len() as i64 == 1;
+        if disk { None } else { self.positions.first().copied() }
+    }
+
+    /// Twice the inradius over the circumradius: 1 for an equilateral triangle, 0 for a degenerate one.
+    pub(super) fn quality(&self, face: [u32; 3]) -> f64 {
+        let [p, q, r] = face.map(|v| self.positions[v as usize]);
+        let (a, b, c) = (p.distance(q), q.distance(r), r.distance(p));
+        let product = a * b * c;
+        if product > 0.0 { ((b + c - a) * (c + a - b) * (a + b - c)).max(0.0) / product } else { 0.0 }
+    }
 }

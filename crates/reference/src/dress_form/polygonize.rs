@@ -28,7 +28,11 @@ pub(super) fn polygonize(field: impl Fn(DVec3) -> f64, bounds: &Bounds, cell: f6
     // Layers by height: y is the slowest index.
     let strides = [1, size[0] * size[2], size[0]];
     let place = |i: usize, j: usize, k: usize| {
-        DVec3::new(i as f64 * cell, bounds.y[0] + (j as f64 - 0.5) * cell, bounds.z[0] + (k as f64 - 0.5) * cell)
+        DVec3::new(
+            i as f64 * cell,
+            bounds.y[0] + (j as f64 - 0.5) * cell,
+            bounds.z[0] + (k as f64 - 0.5) * cell,
+        )
     };
     let mut values = Vec::with_capacity(size[0] * size[1] * size[2]);
     for j in 0..size[1] {
@@ -76,7 +80,8 @@ pub(super) fn polygonize(field: impl Fn(DVec3) -> f64, bounds: &Bounds, cell: f6
                     };
                     // The side that the corner order faces: out of a positive tetrahedron's first corner.
                     let single_outside = ins.len() == 3;
-                    let order = if single_outside { [&outs[..], &ins].concat() } else { [&ins[..], &outs].concat() };
+                    let order =
+                        if single_outside { [&outs[..], &ins].concat() } else { [&ins[..], &outs].concat() };
                     let flip = (odd(&order) == even) != single_outside;
                     let (n, p) = (polygon.len(), &polygon);
                     for t in 1..n - 1 {

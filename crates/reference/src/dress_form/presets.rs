@@ -20,7 +20,10 @@ impl Preset {
     /// The preset called `name`; letter case, spaces and underscores do not matter (`EU 38` is `eu-38`).
     pub fn find(name: &str) -> Option<&'static Preset> {
         let plain = |text: &str| {
-            text.chars().filter(|c| c.is_ascii_alphanumeric()).map(|c| c.to_ascii_lowercase()).collect::<String>()
+            text.chars()
+                .filter(|c| c.is_ascii_alphanumeric())
+                .map(|c| c.to_ascii_lowercase())
+                .collect::<String>()
         };
         let wanted = plain(name);
         presets().iter().find(|preset| plain(&preset.name) == wanted)
@@ -110,22 +113,25 @@ fn eu() -> Vec<Preset> {
 
 fn averages() -> Vec<Preset> {
     let source = "average figures: bust, under bust, waist, hip, height";
-    [("average-woman", Figure::Woman, [97.4, 80.7, 80.3, 104.1, 166.2]), ("average-man", Figure::Man, [102.8, 93.0, 89.0, 102.9, 178.9])]
-        .into_iter()
-        .map(|(name, figure, [bust, underbust, waist, hip, height])| Preset {
-            name: name.to_owned(),
-            source,
-            measurements: Measurements {
-                figure,
-                height: Some(height),
-                bust: Some(bust),
-                underbust: Some(underbust),
-                waist: Some(waist),
-                hip: Some(hip),
-                ..Measurements::default()
-            },
-        })
-        .collect()
+    [
+        ("average-woman", Figure::Woman, [97.4, 80.7, 80.3, 104.1, 166.2]),
+        ("average-man", Figure::Man, [102.8, 93.0, 89.0, 102.9, 178.9]),
+    ]
+    .into_iter()
+    .map(|(name, figure, [bust, underbust, waist, hip, height])| Preset {
+        name: name.to_owned(),
+        source,
+        measurements: Measurements {
+            figure,
+            height: Some(height),
+            bust: Some(bust),
+            underbust: Some(underbust),
+            waist: Some(waist),
+            hip: Some(hip),
+            ..Measurements::default()
+        },
+    })
+    .collect()
 }
 
 /// European men's sizes: size = half the chest; drop 6 (chest - waist = 12 cm) up to 54, then 10 and 8.

@@ -89,7 +89,11 @@ fn collapse_short(patch: &mut Patch, short: f64, long: f64) {
                     if p == skip || q == skip {
                         return true;
                     }
-                    let [a, b, c] = [patch.positions[u as usize], patch.positions[p as usize], patch.positions[q as usize]];
+                    let [a, b, c] = [
+                        patch.positions[u as usize],
+                        patch.positions[p as usize],
+                        patch.positions[q as usize],
+                    ];
                     let (old, new) = ((b - a).cross(c - a), (b - goal).cross(c - goal));
                     goal.distance(b) < long
                         && goal.distance(c) < long
@@ -119,7 +123,8 @@ fn split_long(patch: &mut Patch, long: f64) {
         for e in 0..patch.twin.len() as u32 {
             let t = patch.twin[e as usize];
             if (t == NONE || e < t) && patch.length(e) > limit {
-                let middle = 0.5 * (patch.positions[patch.from(e) as usize] + patch.positions[patch.to(e) as usize]);
+                let middle =
+                    0.5 * (patch.positions[patch.from(e) as usize] + patch.positions[patch.to(e) as usize]);
                 patch.split(e, middle);
             }
         }
@@ -156,10 +161,11 @@ fn flip_to_regular(patch: &mut Patch) {
             };
             let now = off(a, 0) + off(b, 0) + off(c, 0) + off(d, 0);
             let then = off(a, -1) + off(b, -1) + off(c, 1) + off(d, 1);
-            let worst = |t: [[u32; 3]; 2]| t.map(|t| quality(patch, t)).into_iter().fold(f64::MAX, f64::min);
+            let worst = |t: [[u32; 3]; 2]| t.map(|t| patch.quality(t)).into_iter().fold(f64::MAX, f64::min);
             let (old, new) = (worst([[a, b, c], [b, a, d]]), worst([[a, d, c], [d, b, c]]));
             // Fewer odd valences, but no sliver for it; and slivers go whatever the valence.
-            let better = (then < now && new > (0.5 * old).min(0.3)) || (then <= now + 4 && old < 0.3 && new > 1.5 * old);
+            let better = (then < now && new > (0.5 * old).min(0.3))
+                || (then <= now + 4 && old < 0.3 && new > 1.5 * old);
             if !better {
                 continue;
             }
@@ -187,14 +193,6 @@ fn flip_to_regular(patch: &mut Patch) {
             return;
         }
     }
-}
-
-/// Twice the inradius over the circumradius: 1 for an equilateral triangle, 0 for a degenerate one.
-pub(super) fn quality(patch: &Patch, t: [u32; 3]) -> f64 {
-    let [p, q, r] = t.map(|v| patch.positions[v as usize]);
-    let (a, b, c) = (p.distance(q), q.distance(r), r.distance(p));
-    let product = a * b * c;
-    if product == 0.0 { 0.0 } else { ((b + c - a) * (c + a - b) * (a + b - c)).max(0.0) / product }
 }
 
 /// One step of every node towards the middle of its neighbours, within what holds it, then back to the surface.
@@ -241,7 +239,8 @@ fn relax(patch: &mut Patch, field: &Field, projections: usize) {
                     }
                     Hold::Free => {
                         patch.ring(v, ring);
-                        let mean = ring.iter().map(|&u| patch.positions[u as usize]).sum::<DVec3>() / ring.len() as f64;
+                        let mean = ring.iter().map(|&u| patch.positions[u as usize]).sum::<DVec3>()
+                            / ring.len() as f64;
                         let mut d = mean - p;
                         if skin {
                             d -= normal * d.dot(normal);
@@ -304,4 +303,3 @@ fn project(
 pub(super) fn area(patch: &Patch) -> f64 {
     (0..patch.faces.len() as u32).map(|f| 0.5 * patch.normal(f).length()).sum()
 }
-

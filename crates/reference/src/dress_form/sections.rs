@@ -59,7 +59,9 @@ impl Section {
     pub(super) fn outline(&self) -> Vec<[f64; 2]> {
         const QUARTER: usize = 32;
         let mut points = Vec::with_capacity(4 * QUARTER + 4);
-        for (sign, part, power) in [(1.0, self.part_front, self.power_front), (-1.0, self.part_back, self.power_back)] {
+        for (sign, part, power) in
+            [(1.0, self.part_front, self.power_front), (-1.0, self.part_back, self.power_back)]
+        {
             let a = self.half_width / (1.0 + part);
             for i in 0..=QUARTER {
                 let (s, c) = (i as f64 / QUARTER as f64 * std::f64::consts::FRAC_PI_2).sin_cos();
@@ -108,16 +110,22 @@ fn centres(figure: Figure) -> ByLevel {
 /// normal weight, and how fast each grows with girth over stature above 0.44.
 fn depths(figure: Figure) -> [[f64; 2]; 6] {
     match figure {
-        Figure::Woman => [[0.600, 0.45], [0.660, 0.8], [0.710, 0.9], [0.680, 0.6], [0.665, 0.55], [0.635, 0.5]],
-        Figure::Man => [[0.620, 0.45], [0.705, 0.8], [0.700, 1.0], [0.705, 0.6], [0.690, 0.45], [0.650, 0.45]],
-        Figure::Child => [[0.630, 0.45], [0.680, 0.8], [0.690, 1.0], [0.730, 0.6], [0.720, 0.45], [0.680, 0.45]],
+        Figure::Woman => {
+            [[0.600, 0.45], [0.660, 0.8], [0.710, 0.9], [0.680, 0.6], [0.665, 0.55], [0.635, 0.5]]
+        }
+        Figure::Man => {
+            [[0.620, 0.45], [0.705, 0.8], [0.700, 1.0], [0.705, 0.6], [0.690, 0.45], [0.650, 0.45]]
+        }
+        Figure::Child => {
+            [[0.630, 0.45], [0.680, 0.8], [0.690, 1.0], [0.730, 0.6], [0.720, 0.45], [0.680, 0.45]]
+        }
     }
 }
 
 /// Girth of the trunk without breasts at bust level and at the armpit, between underbust (0) and bust (1).
 fn rib_shares(figure: Figure) -> [f64; 2] {
     match figure {
-        Figure::Woman => [0.45, 0.43],
+        Figure::Woman => [0.40, 0.42],
         Figure::Man => [1.0, 0.92],
         Figure::Child => [1.0, 0.85],
     }
@@ -128,7 +136,8 @@ impl Sections {
         let h = levels.stature;
         let parting = 0.0055 * h;
         let normal = depths(m.figure);
-        let depth = |i: usize, girth: f64| (normal[i][0] + normal[i][1] * (girth / h - 0.44).max(0.0)).min(0.92);
+        let depth =
+            |i: usize, girth: f64| (normal[i][0] + normal[i][1] * (girth / h - 0.44).max(0.0)).min(0.92);
         // A stout body grows forward more than backward.
         let stout = ((m.waist * 10.0 / h) - 0.46).max(0.0);
         let forward = |y: f64| {
@@ -172,14 +181,20 @@ impl Sections {
         let girth = Self::girths(m, levels, &legs);
         let trunk_levels =
             [levels.hip, levels.high_hip, levels.waist, levels.underbust, levels.bust, levels.armpit];
-        let mut ratio: Vec<(f64, f64)> = (0..6)
-            .map(|i| (trunk_levels[i], depth(i, girth.get(trunk_levels[i]))))
-            .collect();
+        let mut ratio: Vec<(f64, f64)> =
+            (0..6).map(|i| (trunk_levels[i], depth(i, girth.get(trunk_levels[i])))).collect();
         // The arms hang outside the ribs: wide chests on narrow shoulders are deep.
         let limit = m.shoulder_width * 5.0 + 0.06 * (levels.shoulder - levels.armpit);
         while ratio[5].1 < 0.95 {
             let unit = Section { half_width: 1.0, half_depth: ratio[5].1, ..hip_section };
-            let whole = Section { centre: 0.0, part_front: 0.0, part_back: 0.0, power_front: 2.3, power_back: 2.5, ..unit };
+            let whole = Section {
+                centre: 0.0,
+                part_front: 0.0,
+                part_back: 0.0,
+                power_front: 2.3,
+                power_back: 2.5,
+                ..unit
+            };
             if girth.get(levels.armpit) / hull_length(&mut whole.outline()) <= limit {
                 break;
             }
@@ -228,13 +243,19 @@ impl Sections {
             .collect();
         // Less for the parting, which opens the crotch.
         let spread = 0.0085 * h / table_step;
-        Self { step: table_step, spread, table: smoothed(&smoothed(&table, spread, &[0, 1, 2, 5, 6]), 0.5 * spread, &[3, 4]), parting }
+        Self {
+            step: table_step,
+            spread,
+            table: smoothed(&smoothed(&table, spread, &[0, 1, 2, 5, 6]), 0.5 * spread, &[3, 4]),
+            parting,
+        }
     }
 
     /// Girth by height of the trunk without breasts.
     fn girths(m: &Resolved, levels: &Levels, legs: &Legs) -> Curve {
         let cm = 10.0;
-        let [at_bust, at_armpit] = rib_shares(m.figure).map(|t| cm * (m.underbust + t * (m.bust - m.underbust)));
+        let [at_bust, at_armpit] =
+            rib_shares(m.figure).map(|t| cm * (m.underbust + t * (m.bust - m.underbust)));
         let both = |y: f64| hull_length(&mut legs.section(y).outline());
         let below = levels.crotch - 0.03 * levels.stature;
         let hip = cm * m.hip;
@@ -249,7 +270,7 @@ impl Sections {
             (levels.armpit, at_armpit),
         ];
         // Where the waist is no narrower than the ribs, the natural waist is the crease below the lowest roll.
-        if m.waist > 0.985 * m.underbust && m.waist < m.high_hip {
+        if m.waist > 0.985 * m.underbust && m.waist < CREASE * m.underbust && m.waist < m.high_hip {
             let roll = cm * (m.waist.max(m.underbust) + 0.012 * m.waist);
             points.push((levels.waist + 0.45 * (levels.underbust - levels.waist), roll));
         }
@@ -277,6 +298,9 @@ impl Sections {
 
 /// Share of the hip's tape that the trunk's section makes; the seat's own swelling makes the rest.
 const SEAT_SHARE: f64 = 0.983;
+
+/// A waist up to this times the underbust is a crease between rolls; a larger one is a belly that goes over into the ribs.
+pub(super) const CREASE: f64 = 1.04;
 
 /// Both legs as one parted section.
 struct Legs {
@@ -326,7 +350,10 @@ impl Legs {
         let outer = |a: f64, y: f64| (y, 2.0 * a + gap.get(y));
         let from_girth = |aspect: f64, y: f64| {
             let one = leg_section(1.0, 1.0 / aspect, 0.0, 1.0);
-            outer(girth.get(y) / hull_length(&mut Section { part_front: 0.0, part_back: 0.0, ..one }.outline()), y)
+            outer(
+                girth.get(y) / hull_length(&mut Section { part_front: 0.0, part_back: 0.0, ..one }.outline()),
+                y,
+            )
         };
         let above_knee = levels.knee + 0.10 * h;
         let half_width = Curve::through(&[
@@ -393,7 +420,12 @@ impl Legs {
 
     fn section(&self, y: f64) -> Section {
         let a = self.one_half_width(y);
-        leg_section(self.half_width.get(y), self.half_depth.get(y), self.centre.get(y), 1.0 + self.gap.get(y) / a)
+        leg_section(
+            self.half_width.get(y),
+            self.half_depth.get(y),
+            self.centre.get(y),
+            1.0 + self.gap.get(y) / a,
+        )
     }
 }
 

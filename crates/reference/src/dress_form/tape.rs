@@ -7,6 +7,7 @@ use super::hull::hull_length;
 use super::levels::Levels;
 use super::measurements::Resolved;
 use super::patch::Patch;
+use super::sections::CREASE;
 
 /// Tape girths of the whole form, mirrored from its half, at ascending heights; 0 where nothing is cut. O(faces · levels cut).
 pub(super) fn girths(half: &Patch, heights: &[f64]) -> Vec<f64> {
@@ -51,10 +52,7 @@ pub(super) fn correction(half: &Patch, field: &Field, m: &Resolved) -> Curve {
         (levels.underbust, m.underbust * 10.0),
         (levels.bust, bust),
     ];
-    let upper = [
-        (levels.bust + 0.35 * room, 0.998 * bust),
-        (levels.armpit - UNDERARM * h, 0.993 * bust),
-    ];
+    let upper = [(levels.bust + 0.35 * room, 0.998 * bust), (levels.armpit - UNDERARM * h, 0.993 * bust)];
     let heights: Vec<f64> = wanted.iter().chain(&upper).map(|w| w.0).collect();
     let now = girths(half, &heights);
     let factor = |i: usize, want: f64| want / now[i].max(1.0);
@@ -110,7 +108,8 @@ pub(super) fn level_extremes(half: &Patch, field: &Field, m: &Resolved) -> Curve
             if y > levels.underbust && y < levels.armpit - UNDERARM * h && m.bust > m.underbust {
                 goal = goal.min(bust - arc(y, levels.bust));
             }
-            if y > levels.hip && y < levels.underbust && waist < hip {
+            let belly = y > levels.waist && m.waist > CREASE * m.underbust;
+            if y > levels.hip && y < levels.underbust && waist < hip && !belly {
                 let floor = match (y > levels.waist, y > ribs) {
                     (false, _) => (waist + arc(y, levels.waist)).min(hip),
                     (true, false) => (waist + arc(y, levels.waist)).min(underbust.max(waist)),
@@ -121,7 +120,11 @@ pub(super) fn level_extremes(half: &Patch, field: &Field, m: &Resolved) -> Curve
             (y, if got > 0.0 { f * goal / got } else { f })
         })
         .collect();
-    for y in [levels.armpit + 0.25 * (levels.shoulder - levels.armpit), levels.shoulder, levels.shoulder + 0.01 * h] {
+    for y in [
+        levels.armpit + 0.25 * (levels.shoulder - levels.armpit),
+        levels.shoulder,
+        levels.shoulder + 0.01 * h,
+    ] {
         points.push((y, factor.get(y)));
     }
     points.push((levels.crotch - 0.03 * h, 1.0));
@@ -155,7 +158,8 @@ pub(super) fn warp(half: &mut Patch, field: &Field, factor: &Curve) {
 
 /// Whether the girths are what was asked for.
 pub(super) fn check(half: &Patch, levels: &Levels, m: &Resolved) -> Result<(), FormError> {
-    let wanted = [("hip", levels.hip, m.hip), ("waist", levels.waist, m.waist), ("bust", levels.bust, m.bust)];
+    let wanted =
+        [("hip", levels.hip, m.hip), ("waist", levels.waist, m.waist), ("bust", levels.bust, m.bust)];
     let got = girths(half, &wanted.map(|w| w.1));
     for ((name, _, wanted), got) in wanted.into_iter().zip(got) {
         let got = got / 10.0;

@@ -2,8 +2,8 @@
 
 use mesh_kernel::TriMesh;
 
-/// Convex hull lengths of the horizontal sections at ascending or unordered heights, mm.
-pub(crate) fn tapes(mesh: &TriMesh, heights: &[f64]) -> Vec<f64> {
+/// Convex hull lengths of the horizontal sections at `heights`, mm, each seen from so many directions.
+pub(crate) fn tapes(mesh: &TriMesh, heights: &[f64], directions: u32) -> Vec<f64> {
     let mut points: Vec<Vec<(f64, f64)>> = vec![Vec::new(); heights.len()];
     for f in 0..mesh.faces.len() as u32 {
         let c = mesh.corners(f);
@@ -19,14 +19,13 @@ pub(crate) fn tapes(mesh: &TriMesh, heights: &[f64]) -> Vec<f64> {
             }
         }
     }
-    points.iter().map(|points| hull(points)).collect()
+    points.iter().map(|points| hull(points, directions)).collect()
 }
 
-fn hull(points: &[(f64, f64)]) -> f64 {
-    const TURNS: u32 = 1440;
+fn hull(points: &[(f64, f64)], directions: u32) -> f64 {
     let mut corners: Vec<(f64, f64)> = Vec::new();
-    for k in 0..TURNS {
-        let (s, c) = (std::f64::consts::TAU * f64::from(k) / f64::from(TURNS)).sin_cos();
+    for k in 0..directions {
+        let (s, c) = (std::f64::consts::TAU * f64::from(k) / f64::from(directions)).sin_cos();
         let far = points.iter().copied().max_by(|a, b| (a.0 * c + a.1 * s).total_cmp(&(b.0 * c + b.1 * s)));
         corners.extend(far);
     }
