@@ -98,7 +98,8 @@ fn features_follow_every_placement() {
 fn mirrored_bodies_keep_left_on_the_left() {
     let Some(mesh) = read("male-muscular") else { return };
     // One arm is bent away, so that the two sides differ: shorten the left forearm and hand.
-    let lame = mapped(&mesh, |p| if p.x > 0.33 { DVec3::new(0.33 + (p.x - 0.33) * 0.8, p.y, p.z) } else { p });
+    let lame =
+        mapped(&mesh, |p| if p.x > 0.33 { DVec3::new(0.33 + (p.x - 0.33) * 0.8, p.y, p.z) } else { p });
     let first = features(&lame);
     let mut mirrored = mapped(&lame, |p| DVec3::new(-p.x, p.y, p.z));
     for f in &mut mirrored.faces {
@@ -130,7 +131,8 @@ fn noisy(mesh: &TriMesh, size: f64) -> TriMesh {
     let mut dice = Dice::new(7);
     let mut out = mesh.clone();
     for (p, n) in out.positions.iter_mut().zip(normals) {
-        *p += n * (size * (dice.roll() + dice.roll())) + DVec3::new(dice.roll(), dice.roll(), dice.roll()) * size * 0.3;
+        *p += n * (size * (dice.roll() + dice.roll()))
+            + DVec3::new(dice.roll(), dice.roll(), dice.roll()) * size * 0.3;
     }
     out
 }
@@ -235,14 +237,12 @@ fn posed(mesh: &TriMesh, first: &HumanBody, degrees: f64) -> TriMesh {
     mapped(mesh, |p| {
         let s = p.x.signum();
         let q = DVec3::new(p.x.abs(), p.y, p.z);
-        if q.y < 0.75 * armpit.y && q.x < 1.2 * armpit.x {
-            return p;
-        }
         let from = joint.x - 0.35 * (shoulder.y - armpit.y);
         let to = joint.x + 0.75 * (shoulder.y - armpit.y);
         // Below the armpit only what lies beyond the trunk is arm.
         let t = ((q.x - from) / (to - from)).clamp(0.0, 1.0);
-        let w = if q.y < armpit.y && q.x < armpit.x { 0.0 } else { t * t * (3.0 - 2.0 * t) };
+        let beyond = armpit.x + 0.4 * (armpit.y - q.y).max(0.0);
+        let w = if q.y < armpit.y && q.x < beyond { 0.0 } else { t * t * (3.0 - 2.0 * t) };
         let turned = joint + DMat3::from_rotation_z(degrees.to_radians() * w) * (q - joint);
         DVec3::new(turned.x * s, turned.y, turned.z)
     })
@@ -287,7 +287,10 @@ fn threads_do_not_matter() {
         pool.install(|| features(&mesh))
     };
     let (one, two) = (on(1), on(2));
-    assert_eq!(serde_json::to_string(&one.exported()).unwrap(), serde_json::to_string(&two.exported()).unwrap());
+    assert_eq!(
+        serde_json::to_string(&one.exported()).unwrap(),
+        serde_json::to_string(&two.exported()).unwrap()
+    );
     assert_eq!(one.features, two.features);
     assert_eq!(one.mesh, two.mesh);
 }

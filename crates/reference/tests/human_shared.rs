@@ -38,7 +38,8 @@ fn features_of_known_bodies_are_where_they_were_measured() {
         let heading = facing.cross(turn * DVec3::Z).y.asin().to_degrees();
         fail("heading, degrees,", heading, if facing.dot(turn * DVec3::Z) > 0.0 { 3.0 } else { -1.0 });
         write!(table, "{name:18} heading {heading:+.2}").unwrap();
-        for (girth, key) in [("bust", "bust_fullest"), ("waist", "waist_narrowest"), ("hip", "hips_fullest")] {
+        for (girth, key) in [("bust", "bust_fullest"), ("waist", "waist_narrowest"), ("hip", "hips_fullest")]
+        {
             let off = body.girths[girth] - truth["extremes"][key]["tape_cm"].as_f64().unwrap() * 10.0;
             fail(girth, off, if noisy { 15.0 } else { 9.0 });
             write!(table, " {girth} {off:+.1}").unwrap();
@@ -95,9 +96,17 @@ fn lines_cross_every_level_once() {
         for curve in ["neck", "neck_base"].into_iter().chain(LEVELS).chain(LINES) {
             assert!(f.curves.contains_key(curve), "{name}: no {curve}");
         }
-        for what in
-            ["armhole", "upper_arm", "thigh", "shoulder_line", "knee", "ankle", "wrist", "elbow", "shoulder_line"]
-        {
+        for what in [
+            "armhole",
+            "upper_arm",
+            "thigh",
+            "shoulder_line",
+            "knee",
+            "ankle",
+            "wrist",
+            "elbow",
+            "shoulder_line",
+        ] {
             for side in ["left", "right"] {
                 assert!(f.curves.contains_key(&format!("{side}_{what}")), "{name}: no {side}_{what}");
             }
@@ -116,7 +125,8 @@ fn lines_cross_every_level_once() {
                     if f.curves[&curve].points[0].y > points[0].y - 1.0 {
                         continue;
                     }
-                    let frame = f.crossing(line, &curve).unwrap_or_else(|| panic!("{name}: {line} x {curve}"));
+                    let frame =
+                        f.crossing(line, &curve).unwrap_or_else(|| panic!("{name}: {line} x {curve}"));
                     let triple = frame.normal.dot(frame.first.cross(frame.second));
                     assert!(triple.abs() > 0.5, "{name}: {line} x {curve}: {triple}");
                     // Down and anticlockwise seen from above: outward is their product.
