@@ -167,8 +167,11 @@ pub(crate) struct Form {
     #[arg(long, value_name = "FILE")]
     pub(crate) measurements: Option<PathBuf>,
     /// Woman, man or child; decides what is assumed where nothing is given.
-    #[arg(long, value_name = "FIGURE")]
-    pub(crate) figure: Option<String>,
+    #[arg(long, value_enum)]
+    pub(crate) figure: Option<Figure>,
+    /// Draw the form, from the front, the side and the back.
+    #[arg(long, value_name = "FILE.png")]
+    pub(crate) picture: Option<PathBuf>,
     /// Give the form a plain head, so that it is as high as the person.
     #[arg(long)]
     pub(crate) head: bool,
@@ -179,25 +182,59 @@ pub(crate) struct Form {
     pub(crate) tape: Tape,
 }
 
+/// Whose proportions fill in what was not measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Figure {
+    Woman,
+    Man,
+    Child,
+}
+
 /// Tape measurements in centimetres.
 #[derive(Debug, Args)]
 pub(crate) struct Tape {
+    /// Fullest girth of bust or chest.
     #[arg(long, value_name = "CM")]
     pub(crate) bust: Option<f64>,
+    /// Girth below the breasts.
     #[arg(long, value_name = "CM")]
     pub(crate) underbust: Option<f64>,
+    /// Narrowest girth.
     #[arg(long, value_name = "CM")]
     pub(crate) waist: Option<f64>,
+    /// Girth at the top of the hip bones.
+    #[arg(long, value_name = "CM")]
+    pub(crate) high_hip: Option<f64>,
+    /// Fullest girth of the seat.
     #[arg(long, value_name = "CM")]
     pub(crate) hip: Option<f64>,
+    /// Stature, without shoes.
     #[arg(long, value_name = "CM")]
     pub(crate) height: Option<f64>,
+    /// Girth of the neck base.
     #[arg(long, value_name = "CM")]
     pub(crate) neck: Option<f64>,
+    /// Straight width, shoulder point to shoulder point.
     #[arg(long, value_name = "CM")]
     pub(crate) shoulder_width: Option<f64>,
+    /// Nape to waist.
     #[arg(long, value_name = "CM")]
     pub(crate) back_length: Option<f64>,
+    /// Girth of an upper arm.
+    #[arg(long, value_name = "CM")]
+    pub(crate) upper_arm: Option<f64>,
+    /// Girth of a thigh.
+    #[arg(long, value_name = "CM")]
+    pub(crate) thigh: Option<f64>,
+    /// Girth of a knee.
+    #[arg(long, value_name = "CM")]
+    pub(crate) knee: Option<f64>,
+    /// Girth of a calf.
+    #[arg(long, value_name = "CM")]
+    pub(crate) calf: Option<f64>,
+    /// Girth of an ankle.
+    #[arg(long, value_name = "CM")]
+    pub(crate) ankle: Option<f64>,
 }
 
 /// A model: OBJ (groups are surfaces), PLY, STL, OFF or GLB.
@@ -235,6 +272,18 @@ pub(crate) enum Unit {
     Cm,
     M,
     Inch,
+}
+
+impl Unit {
+    /// Millimetres in one.
+    pub(crate) fn millimetres(self) -> f64 {
+        match self {
+            Self::Mm => 1.0,
+            Self::Cm => 10.0,
+            Self::M => 1000.0,
+            Self::Inch => 25.4,
+        }
+    }
 }
 
 /// What a picture is taken from.
@@ -279,4 +328,7 @@ pub(crate) struct Render {
     /// What the colours show.
     #[arg(long, value_enum, default_value_t = Colour::None)]
     pub(crate) color: Colour,
+    /// Unit of the model; told from its size when left out.
+    #[arg(long, value_enum)]
+    pub(crate) unit: Option<Unit>,
 }

@@ -1,1 +1,19 @@
-//! The document: reference, template and pieces; the regenerate pipeline and its reports.
+//! The document and the pipeline: template and body in, garment, pattern, pictures and report out.
+//!
+//! * [`mod@regenerate`]: features → construction → flattening → pieces → files;
+//! * [`batch`]: the same for many bodies;
+//! * [`report`]: the keys of `report.json`;
+//! * [`document`]: `design.toile`;
+//! * [`pictures`]: front, back, pattern, features, any model;
+//! * [`model_info`]: what a model holds;
+//! * [`output`]: files made in memory, then written.
+
+pub mod batch;
+pub mod document;
+mod fingerprint;
+mod garment_pattern;
+pub mod model_info;
+pub mod output;
+pub mod pictures;
+pub mod regenerate;
+pub mod report;

@@ -4,7 +4,10 @@
 
 use std::collections::BTreeMap;
 
+use pattern::Pattern;
+use reference::human::HumanBody;
 use serde::Serialize;
+use template::{Garment, Template};
 
 /// The whole report of one regeneration.
 #[derive(Clone, Debug, Serialize)]
@@ -31,6 +34,9 @@ pub struct Report {
     pub seams: Vec<SeamReport>,
     /// What could not be met or had to be guessed, in words.
     pub warnings: Vec<String>,
+    /// Of template, body and settings, in a batch: the same fingerprint, the same results.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fingerprint: Option<String>,
     /// Where the time went.
     pub seconds: Seconds,
 }
@@ -128,4 +134,81 @@ pub struct Seconds {
     pub export: f64,
     /// All of it.
     pub total: f64,
+}
+
+impl Report {
+    /// Collects the figures; `seconds` are left zero.
+    pub(crate) fn new(
+        template: &Template,
+        file: &str,
+        body: &HumanBody,
+        garment: &Garment,
+        pattern: &Pattern,
+    ) -> Self {
+        let surfaces = garment.body.surfaces().map(|(_, s)| SurfaceReport {
+            name: s.name().to_owned(),
+            nodes: s.positions().len(),
+            faces: s.faces().len(),
+            area: s.area(),
+        });
+        let warnings = body.features.warnings.iter().chain(&garment.warnings).chain(&pattern.warnings);
+        Self {
+            toile: env!("CARGO_PKG_VERSION").to_owned(),
+            template: template.file().name.clone(),
+            body: BodyReport {
+                file: file.to_owned(),
+                height: body.features.height,
+                units_guessed: body.unit.symbol().to_owned(),
+                girths: body.girths.clone(),
+            },
+            surfaces: surfaces.collect(),
+            joints: joints(garment),
+            collision: CollisionReport {
+                nodes_inside: garment.collision.nodes_inside,
+                faces_crossing: garment.collision.faces_crossing,
+                min_distance: garment.collision.min_distance,
+            },
+            ease: garment.ease.clone(),
+            ease_wanted: garment.ease_wanted.clone(),
+            pieces: pattern
+                .pieces
+                .iter()
+                .map(|p| PieceReport {
+                    name: p.name.clone(),
+                    area_3d: p.report.area_3d,
+                    area_2d: p.report.area_2d,
+                    mean_stretch: p.report.mean_stretch,
+                    max_stretch: p.report.max_stretch,
+                    flipped: p.report.flipped,
+                    overlaps: p.report.overlaps,
+                })
+                .collect(),
+            seams: pattern
+                .seams
+                .iter()
+                .map(|s| SeamReport {
+                    name: s.name.clone(),
+                    lengths_2d: s.lengths_2d.clone(),
+                    mismatch: s.mismatch,
+                })
+                .collect(),
+            warnings: warnings.cloned().collect(),
+            fingerprint: None,
+            seconds: Seconds::default(),
+        }
+    }
+}
+
+/// The joints with their surfaces in radial order and their length in space.
+fn joints(garment: &Garment) -> Vec<JointReport> {
+    let name = |surface: usize| garment.surfaces[surface].name.clone();
+    garment
+        .seams
+        .iter()
+        .map(|seam| JointReport {
+            name: seam.name.clone(),
+            surfaces: seam.sides.iter().map(|side| name(side.surface)).collect(),
+            length: seam.length,
+        })
+        .collect()
 }

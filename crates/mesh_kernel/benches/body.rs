@@ -6,7 +6,8 @@
 use std::hint::black_box;
 
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
-use mesh_kernel::body::{Body, FaceId, SurfaceId, SurfaceSpec};
+use mesh_kernel::body::edit::{Editor, Guard};
+use mesh_kernel::body::{Body, EdgeId, FaceId, SurfaceId, SurfaceSpec};
 use mesh_kernel::glam::DVec3;
 use mesh_kernel::{Group, TriMesh};
 
@@ -45,6 +46,16 @@ fn strips(n: usize) -> TriMesh {
 
 fn spec(mesh: &TriMesh) -> SurfaceSpec {
     SurfaceSpec { name: "panel".into(), positions: mesh.positions.clone(), faces: mesh.faces.clone() }
+}
+
+fn shuffled(n: usize) -> Vec<u32> {
+    let mut order: Vec<u32> = (0..n as u32).collect();
+    let mut state = 12_345u64;
+    for i in (1..n).rev() {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        order.swap(i, (state >> 33) as usize % (i + 1));
+    }
+    order
 }
 
 fn body(c: &mut Criterion) {
@@ -89,6 +100,36 @@ fn body(c: &mut Criterion) {
                     let _ = body.split_face(SurfaceId(k % 8), FaceId(k * 7919 % 20_000));
                 }
                 body
+            },
+            BatchSize::LargeInput,
+        );
+    });
+
+    // One random order for all, as the peers' figures were taken; the journal is on.
+    let edges = one.surface(SurfaceId(0)).edges().len();
+    let order = shuffled(edges);
+    group.throughput(Throughput::Elements(edges as u64));
+    group.bench_function("edge swap, random: edges tried", |b| {
+        b.iter_batched(
+            || Editor::new(one.clone()),
+            |mut editor| {
+                for &e in &order {
+                    let _ = editor.swap_edge(SurfaceId(0), EdgeId(e), Guard::None);
+                }
+                editor
+            },
+            BatchSize::LargeInput,
+        );
+    });
+    group.throughput(Throughput::Elements(100_000));
+    group.bench_function("edge split, random: edges", |b| {
+        b.iter_batched(
+            || Editor::new(one.clone()),
+            |mut editor| {
+                for &e in &order[..100_000] {
+                    let _ = editor.split_edge(SurfaceId(0), EdgeId(e), 0.5);
+                }
+                editor
             },
             BatchSize::LargeInput,
         );

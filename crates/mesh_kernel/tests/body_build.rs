@@ -4,7 +4,8 @@
 #![allow(clippy::unwrap_used)]
 
 use mesh_kernel::body::{
-    AddError, Body, BuildError, ChainSpec, DirectedEdge, FaceId, JointId, JointSpec, NodeId, Side, SurfaceId, SurfaceSpec,
+    AddError, Body, BuildError, ChainSpec, DirectedEdge, FaceId, JointId, JointSpec, NodeId, Side, SurfaceId,
+    SurfaceSpec,
 };
 use mesh_kernel::glam::DVec3;
 use mesh_kernel::{Group, TriMesh};

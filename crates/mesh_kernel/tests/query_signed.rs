@@ -57,10 +57,10 @@ fn signs_on_broken_meshes() {
     let mut random = Random(7);
     let ring = torus(300.0, 100.0, 48, 24);
     let lo = DVec3::new(-450.0, -150.0, -450.0);
-    let box_points: Vec<DVec3> = (0..1500).map(|_| random.in_box(lo, -lo)).collect();
+    let box_points: Vec<DVec3> = (0..600).map(|_| random.in_box(lo, -lo)).collect();
     let check = |name: &str, mesh: &TriMesh| {
         let mut points = box_points.clone();
-        points.extend(band(mesh, 3000, 30.0, 8));
+        points.extend(band(mesh, 1200, 30.0, 8));
         check_signs(name, mesh, &points);
     };
     check("closed", &ring);
@@ -133,6 +133,6 @@ fn winding_errors_are_bounded() {
 fn signs_on_bodies_and_scans() {
     for name in ["female-average", "scan-noisy-plus", "scan-noisy-tall"] {
         let Some(body) = shared_body(name) else { return };
-        check_signs(name, &body, &band(&body, 1500, 0.02, 11));
+        check_signs(name, &body, &band(&body, 700, 0.02, 11));
     }
 }

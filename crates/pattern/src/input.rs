@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::Flat;
+
 /// Everything that [`make`](crate::make) needs.
 #[derive(Clone, Debug, Default)]
 pub struct PatternInput {
@@ -15,6 +17,9 @@ pub struct PatternInput {
     pub lines: Vec<PatchLine>,
     /// Where patches are to be cut open before flattening: darts, slits, the opening of a tube.
     pub cuts: Vec<PatchLine>,
+    /// Flat patches of an earlier run, in the patches' order, to start from; may be empty. One that does not fit (other
+    /// faces, or flipped on the new shape) is passed over.
+    pub start: Vec<Flat>,
 }
 
 /// One surface of the garment: an oriented 2-manifold triangle patch with boundary.

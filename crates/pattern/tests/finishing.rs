@@ -90,7 +90,7 @@ fn corners_take_the_style_asked_for() {
 fn a_mirrored_hem_lies_flush_when_folded_back() {
     // A skirt that widens downward: the hem's allowance must narrow below the hem line.
     let skirt = grid("skirt", 8, 8, |u, v| {
-        let half = 150.0 - 60.0 * v;
+        let half = 250.0 - 160.0 * v;
         DVec3::new((2.0 * u - 1.0) * half, 300.0 * v, 0.0)
     });
     let hem: Vec<u32> = (0..=8).map(|i| i * 9).collect();
@@ -237,4 +237,48 @@ fn the_layout_keeps_pieces_apart_and_on_the_cloth() {
         }
     }
     assert!(used > 0.6 * 900.0 * pattern.layout.length, "{}", used / (900.0 * pattern.layout.length));
+}
+
+/// Whether a closed polygon crosses itself by more than a rounding error; touching is allowed.
+fn crosses_itself(points: &[DVec2]) -> bool {
+    let n = points.len();
+    let off = |a: DVec2, b: DVec2, c: DVec2| (b - a).perp_dot(c - a) / a.distance(b);
+    let opposite = |p: f64, q: f64| p * q < 0.0 && p.abs().min(q.abs()) > 1e-5;
+    (0..n).any(|i| {
+        (i + 2..n).filter(|j| (j + 1) % n != i).any(|j| {
+            let (a, b, c, d) = (points[i], points[i + 1], points[j], points[(j + 1) % n]);
+            opposite(off(a, b, c), off(a, b, d)) && opposite(off(c, d, a), off(c, d, b))
+        })
+    })
+}
+
+proptest::proptest! {
+    #![proptest_config(proptest::prelude::ProptestConfig { cases: 60, ..Default::default() })]
+
+    /// Whatever the outline and the widths: the cut line is simple and encloses the sewing line.
+    #[test]
+    fn cut_lines_are_simple(
+        radii in proptest::collection::vec(20.0f64..200.0, 5..40),
+        widths in proptest::collection::vec(0.0f64..40.0, 40),
+        styles in proptest::collection::vec(0usize..4, 40),
+    ) {
+        // A star: a fan about its middle.
+        let n = radii.len();
+        let mut patch = Patch { name: "star".to_owned(), ..Patch::default() };
+        patch.positions.push(DVec3::ZERO);
+        for (i, r) in radii.iter().enumerate() {
+            let (s, c) = (std::f64::consts::TAU * i as f64 / n as f64).sin_cos();
+            patch.positions.push(DVec3::new(r * c, r * s, 0.0));
+        }
+        let rim = |i: usize| (1 + i % n) as u32;
+        patch.faces = (0..n).map(|i| [0, rim(i), rim(i + 1)]).collect();
+        let all = [CornerStyle::Mitre, CornerStyle::Bevel, CornerStyle::Square, CornerStyle::Mirrored];
+        patch.piece.edges =
+            (0..n).map(|i| edge(vec![rim(i), rim(i + 1)], widths[i], all[styles[i]])).collect();
+        let piece = piece(patch);
+        proptest::prop_assert!(!crosses_itself(&piece.cut[0].points));
+        let (cut, sewn) = (area(&piece.cut[0].points), area(&piece.sew[0].points()));
+        proptest::prop_assert!(cut >= sewn - 0.2, "{} {}", cut, sewn);
+        proptest::prop_assert_eq!(piece.cut[0].points.len(), piece.cut[0].corner.len());
+    }
 }

@@ -119,7 +119,7 @@ fn a_tube_is_cut_open_and_a_ring_is_not() {
     let yoke = tube("yoke", 40, 8, |u, v| {
         let (s, c) = (std::f64::consts::TAU * u).sin_cos();
         let r = 150.0 - 80.0 * v;
-        DVec3::new(r * c, 0.002 * r * r, -r * s)
+        DVec3::new(r * c, 0.001 * r * r, -r * s)
     });
     let pattern = flatten(&PatternInput { patches: vec![sleeve, yoke], ..PatternInput::default() });
     let [sleeve, yoke] = &pattern.pieces[..] else { panic!() };
@@ -140,6 +140,23 @@ fn a_flounce_of_more_than_a_turn_is_reported_to_lie_on_itself() {
     let pattern = flatten(&alone(patch));
     assert!(pattern.pieces[0].report.overlaps > 0 && pattern.pieces[0].report.flipped == 0);
     assert!(pattern.warnings.iter().any(|w| w.contains("lies on itself")), "{:?}", pattern.warnings);
+}
+
+#[test]
+fn an_earlier_run_is_a_good_start() {
+    let mut input = alone(saddle(40));
+    let first = flatten(&input);
+    for p in &mut input.patches[0].positions {
+        p.z *= 1.03;
+    }
+    let cold = flatten(&input);
+    input.start = first.flats;
+    let warm = flatten(&input);
+    let (a, b) = (&cold.pieces[0].report, &warm.pieces[0].report);
+    assert!(b.steps < a.steps + 1 && (a.energy - b.energy).abs() < 1e-9, "{a:?} {b:?}");
+    // A start that does not fit is passed over.
+    input.start[0].faces.pop();
+    assert_eq!(flatten(&input).pieces[0].report, *a);
 }
 
 #[test]

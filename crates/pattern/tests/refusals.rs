@@ -140,3 +140,38 @@ fn options_out_of_range() {
     let text = error(patch).to_string();
     assert!(text.contains("front") && text.contains("-3"), "{text}");
 }
+
+proptest::proptest! {
+    #![proptest_config(proptest::prelude::ProptestConfig { cases: 300, ..Default::default() })]
+
+    /// Any soup of triangles: pieces with finite numbers, or a typed error; never a panic.
+    #[test]
+    fn random_soups_are_flattened_or_refused(
+        points in proptest::collection::vec([-50.0f64..50.0, -50.0f64..50.0, -50.0f64..50.0], 3..10),
+        faces in proptest::collection::vec([0u32..10, 0u32..10, 0u32..10], 1..14),
+        cut in proptest::collection::vec(0u32..10, 0..4),
+        split in 0u32..14,
+    ) {
+        let positions = points.into_iter().map(DVec3::from_array).collect();
+        let mut mesh = mesh_kernel::TriMesh::new(positions, faces);
+        let end = mesh.faces.len() as u32;
+        if split < end {
+            let group = |name: &str, faces| mesh_kernel::Group { name: name.to_owned(), faces };
+            mesh.groups = vec![group("a", 0..split), group("b", split..end)];
+        }
+        let options = FlattenMeshOptions { cuts: vec![cut], allowance_mm: 5.0, ..FlattenMeshOptions::default() };
+        if let Ok(pattern) = flatten_mesh(&mesh, &options) {
+            for (piece, flat) in pattern.pieces.iter().zip(&pattern.flats) {
+                proptest::prop_assert_eq!(piece.report.flipped, 0);
+                proptest::prop_assert!(flat.uv.iter().all(|p| p.is_finite()));
+            }
+            for (_, dialect) in Dialect::NAMES {
+                to_dxf(&pattern, &DxfOptions { dialect, ..DxfOptions::default() });
+            }
+            for (_, paper) in Paper::NAMES {
+                to_pdf(&pattern, &PdfOptions { paper, ..PdfOptions::default() });
+            }
+            to_svg(&pattern, &SvgOptions::default());
+        }
+    }
+}

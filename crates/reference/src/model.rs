@@ -7,11 +7,10 @@ use std::collections::BTreeMap;
 
 use mesh_kernel::glam::{DVec2, DVec3};
 
-/// How far a line may pass from a curve that it crosses, millimetres: on the skin, and for taut curves, which span
-/// hollows.
+/// How far curves may pass each other and still cross, millimetres: in general, and a line beside a level curve, one of
+/// which may span a hollow that the other follows.
 const NEAR: f64 = 25.0;
-const NEAR_LEVEL: f64 = 45.0;
-const NEAR_TAPE: f64 = 110.0;
+const NEAR_LEVEL: f64 = 110.0;
 /// Tangents are chords of this length about the point, millimetres.
 const CHORD: f64 = 24.0;
 /// Curves that meet under a smaller sine than this make no frame.
@@ -134,19 +133,19 @@ impl Features {
     ///
     /// A line down the body crosses a level curve at its height. Where the two differ there (the level curve follows
     /// the cleft and the line bridges it, or the level curve is a taut `*_tape` and the line lies on the skin), the level
-    /// curve's point is the one in the same direction from the middle of its outline; the origin is half-way between the
-    /// two, on a tape curve it is the tape's point. All other pairs meet where they come nearest, within 25 mm, half-way
-    /// between; where they meet more than once, the frontmost meeting counts.
+    /// curve's point is the one in the same direction from the middle of its outline; the origin is the line's point,
+    /// on a tape curve the tape's. All other pairs meet where they come nearest, within 25 mm, half-way between; where
+    /// they meet more than once, the frontmost meeting counts.
     pub fn crossing(&self, curve_a: &str, curve_b: &str) -> Option<Frame> {
         let (a, b) = (self.curves.get(curve_a)?, self.curves.get(curve_b)?);
         let (at_a, at_b, origin) = match (self.level_of(a), self.level_of(b)) {
             (Some(_), None) if !b.closed => {
-                let (b_at, a_at) = self.level_meeting(b, a)?;
-                (a_at, b_at, meeting_point(&a_at, curve_a, &b_at, curve_b)?)
+                let (line, level) = self.level_meeting(b, a)?;
+                (level, line, if curve_a.ends_with("_tape") { level.origin } else { line.origin })
             }
             (None, Some(_)) if !a.closed => {
-                let (a_at, b_at) = self.level_meeting(a, b)?;
-                (a_at, b_at, meeting_point(&a_at, curve_a, &b_at, curve_b)?)
+                let (line, level) = self.level_meeting(a, b)?;
+                (line, level, if curve_b.ends_with("_tape") { level.origin } else { line.origin })
             }
             _ => {
                 let (a_at, b_at) = self.nearest_meeting(a, b)?;
@@ -216,8 +215,8 @@ impl Features {
                 best = Some((gap, i, t));
             }
         }
-        let (_, i, t) = best?;
-        Some((on_line, level.at(i, t)))
+        let (gap, i, t) = best?;
+        (gap < NEAR_LEVEL).then(|| (on_line, level.at(i, t)))
     }
 
     /// Nearest approach; among equally near ones the frontmost.
@@ -240,15 +239,6 @@ impl Features {
             .filter(|f| a.points[f.2].distance(place) < 20.0)
             .min_by(|p, q| p.0.total_cmp(&q.0))?;
         Some((a.at(best.2, best.3), b.at(best.4, best.5)))
-    }
-}
-
-fn meeting_point(a: &Frame, name_a: &str, b: &Frame, name_b: &str) -> Option<DVec3> {
-    let gap = a.origin.distance(b.origin);
-    match (name_a.ends_with("_tape"), name_b.ends_with("_tape")) {
-        (true, false) => (gap < NEAR_TAPE).then_some(a.origin),
-        (false, true) => (gap < NEAR_TAPE).then_some(b.origin),
-        _ => (gap < NEAR_LEVEL).then(|| (a.origin + b.origin) / 2.0),
     }
 }
 

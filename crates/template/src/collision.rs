@@ -7,8 +7,6 @@
 //! Kunisch 2003): each step is one numeric factorisation with the kept symbolic part, and the contacts found are where the
 //! next problem begins. Distances are measured again after each move, and triangles are checked exactly at the end.
 
-use std::f64::consts::PI;
-
 use glam::DVec3;
 use mesh_kernel::TriMesh;
 use mesh_kernel::query::Crossings;
@@ -349,6 +347,3 @@ fn entries(flap: &Flap) -> impl Iterator<Item = (u32, u32, f64)> + Clone + '_ {
         })
     })
 }
-
-/// Girth that one millimetre outward adds all round: the first guess of the ease solver.
-pub(crate) const GIRTH_PER_PUSH: f64 = 2.0 * PI;

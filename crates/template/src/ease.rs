@@ -6,6 +6,9 @@ use glam::DVec3;
 use mesh_kernel::query::tape_length;
 use reference::FeatureCurve;
 
+/// Girth that one millimetre outward adds all round: the first guess.
+const GIRTH_PER_PUSH: f64 = std::f64::consts::TAU;
+
 /// A horizontal section: pieces of it, each a connected curve.
 struct Piece {
     points: Vec<DVec3>,
@@ -105,21 +108,29 @@ fn in_hull(points: &[DVec3], middle: DVec3) -> bool {
     angles.windows(2).map(|w| w[1] - w[0]).fold(wrap, f64::max) < std::f64::consts::PI
 }
 
-/// One ease level on its way to the wanted girth: secant steps.
+/// One ease level on its way to the wanted girth: secant steps, kept between a push that was too small and one that was
+/// too large once both are known.
 #[derive(Clone, Debug)]
 pub(crate) struct Secant {
     /// Outward offset of the level's nodes now, mm.
     pub(crate) push: f64,
     slope: f64,
     last: Option<[f64; 2]>,
+    too_small: Option<f64>,
+    too_large: Option<f64>,
 }
 
 /// Offsets beyond this are no ease any more, mm.
-const FARTHEST: f64 = 150.0;
+const FARTHEST: f64 = 45.0;
 
 impl Secant {
     pub(crate) fn new() -> Self {
-        Self { push: 0.0, slope: crate::collision::GIRTH_PER_PUSH, last: None }
+        Self { push: 0.0, slope: GIRTH_PER_PUSH, last: None, too_small: None, too_large: None }
+    }
+
+    /// Forgets what other garments gave, keeps the offset and the slope.
+    pub(crate) fn restart(&mut self) {
+        *self = Self { push: self.push, slope: self.slope, ..Self::new() };
     }
 
     /// Takes a step from what the present offset gave (`girth` less the wanted one); `false` when it cannot move.
@@ -128,10 +139,20 @@ impl Secant {
             && (self.push - push).abs() > 0.05
         {
             // Contact with the body flattens the slope; do not believe in one that would throw the nodes away.
-            self.slope = ((excess - old) / (self.push - push)).clamp(1.5, 12.0);
+            self.slope = ((excess - old) / (self.push - push)).clamp(2.0, 12.0);
         }
         self.last = Some([self.push, excess]);
-        let next = (self.push - excess / self.slope).clamp(-FARTHEST, FARTHEST);
+        let side = if excess < 0.0 { &mut self.too_small } else { &mut self.too_large };
+        *side = Some(self.push);
+        let mut next = (self.push - excess / self.slope).clamp(-FARTHEST, FARTHEST);
+        if let (Some(small), Some(large)) = (self.too_small, self.too_large) {
+            if small >= large {
+                // Other levels have moved the girth meanwhile: only the newest side counts.
+                if excess < 0.0 { self.too_large = None } else { self.too_small = None }
+            } else if next <= small || next >= large {
+                next = 0.5 * (small + large);
+            }
+        }
         let moves = (next - self.push).abs() > 1e-3;
         self.push = next;
         moves

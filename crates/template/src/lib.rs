@@ -7,6 +7,7 @@
 mod collision;
 mod complex;
 mod construct;
+mod crowding;
 mod ease;
 pub mod encoding;
 pub mod error;

@@ -11,6 +11,9 @@ use crate::format::{At, Level, NodeSpec, Scale, Slide};
 use crate::layout::Layout;
 use crate::skin::Skin;
 
+/// Steps in which an ease moves a node, mm.
+const PUSH_STEP: f64 = 2.0;
+
 /// Stature at which `"scale": "height"` changes nothing, mm.
 pub const SCALE_STATURE: f64 = 1680.0;
 
@@ -122,6 +125,8 @@ pub(crate) struct Placing<'a> {
     layout: &'a Layout,
     features: &'a Features,
     skin: &'a Skin<'a>,
+    /// Ease moves no node nearer to the skin than this, mm.
+    clearance: f64,
     /// For twins: the signs of the first and second tangent, so that an offset means its mirror image.
     signs: Vec<[f64; 2]>,
     order: Vec<u32>,
@@ -133,9 +138,11 @@ impl<'a> Placing<'a> {
         layout: &'a Layout,
         features: &'a Features,
         skin: &'a Skin<'a>,
+        clearance: f64,
     ) -> Result<Self, TemplateError> {
         let order = dependency_order(layout)?;
-        let mut placing = Self { layout, features, skin, signs: vec![[1.0; 2]; layout.nodes.len()], order };
+        let mut placing =
+            Self { layout, features, skin, clearance, signs: vec![[1.0; 2]; layout.nodes.len()], order };
         for i in 0..layout.nodes.len() {
             let (Some(source), Some(_)) = (layout.nodes[i].made_from, &layout.nodes[i].spec.at) else {
                 continue;
@@ -327,7 +334,24 @@ impl<'a> Placing<'a> {
         }
         let horizontal = DVec3::new(outward.x, 0.0, outward.z).try_normalize();
         let outward = horizontal.unwrap_or(DVec3::ZERO);
-        Ok((place + push * outward, outward))
+        Ok((self.pushed(place, outward, push), outward))
+    }
+
+    /// Moves a node for its ease, in steps, and stops before the skin: of the trunk inward, of an arm outward (T6).
+    fn pushed(&self, place: DVec3, outward: DVec3, push: f64) -> DVec3 {
+        if push == 0.0 || outward == DVec3::ZERO {
+            return place;
+        }
+        let steps = (push.abs() / PUSH_STEP).ceil().max(1.0);
+        let mut distance = self.skin.signed(place);
+        for k in 1..=steps as usize {
+            let there = self.skin.signed(place + push * k as f64 / steps * outward);
+            if there < self.clearance && there < distance {
+                return place + push * (k - 1) as f64 / steps * outward;
+            }
+            distance = there;
+        }
+        place + push * outward
     }
 
     /// All nodes, with each ease level's offset (by level name, mm) added to the nodes that carry its name.
@@ -344,9 +368,7 @@ impl<'a> Placing<'a> {
                 return Err(TemplateError::BadReference(problem));
             }
         }
-        if self.layout.symmetric {
-            symmetrise(self.layout, &mut out.positions);
-        }
+        symmetrise(self.layout, &mut out.positions);
         Ok(out)
     }
 }
@@ -355,8 +377,11 @@ fn mirror(p: DVec3) -> DVec3 {
     DVec3::new(-p.x, p.y, p.z)
 }
 
-/// Makes each node the mirror image of its twin, to the bit, and centre nodes lie at x = 0.
-fn symmetrise(layout: &Layout, positions: &mut [DVec3]) {
+/// In a symmetric template, makes each node the mirror image of its twin, to the bit; centre nodes lie at x = 0.
+pub(crate) fn symmetrise(layout: &Layout, positions: &mut [DVec3]) {
+    if !layout.symmetric {
+        return;
+    }
     for (i, node) in layout.nodes.iter().enumerate() {
         let Some(t) = node.twin.map(|t| t as usize) else { continue };
         if t == i {

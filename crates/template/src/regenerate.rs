@@ -20,7 +20,7 @@ use crate::layout::{Layout, LayoutLine};
 use crate::place::Placing;
 use crate::refine::{Refined, Tag};
 use crate::skin::Skin;
-use crate::{complex, joints, outline};
+use crate::{complex, crowding, joints, outline, place};
 
 /// A body with its features, both in the canonical frame (millimetres, y up, facing +z).
 #[derive(Clone, Copy, Debug)]
@@ -53,7 +53,7 @@ const FINE_AIM: f64 = 3.0;
 /// Rounds of the ease solver.
 const EASE_ROUNDS: usize = 12;
 /// Rounds on the fine garment after a search on the coarse one.
-const FINE_ROUNDS: usize = 3;
+const FINE_ROUNDS: usize = 5;
 /// A garment with as many faces is fine enough to measure girths on: some 60 chords round a hip, 0.3 mm short.
 const COARSE_FACES: usize = 1500;
 /// More template faces than this times four to the level are refused.
@@ -158,8 +158,14 @@ pub fn regenerate(
     let skin = Skin::new(reference.mesh);
     seconds.prepare = clock.stage(0.1, "placing nodes")?;
 
-    let placing = Placing::new(layout, reference.features, &skin)?;
-    let first = placing.place_all(&BTreeMap::new())?;
+    let placing = Placing::new(layout, reference.features, &skin, file.clearance)?;
+    let mut first = placing.place_all(&BTreeMap::new())?;
+    let patches = complex::patches(layout, &first.positions, &skin, &mut Vec::new())?;
+    let moves = crowding::find(layout, &patches, &first.positions, &skin);
+    crowding::apply(&moves, &mut first.positions, &skin);
+    place::symmetrise(layout, &mut first.positions);
+    warnings.extend(crowding::tell(layout, &moves));
+    // Once more: where nodes have moved, other diagonals may be the better ones.
     let patches = complex::patches(layout, &first.positions, &skin, &mut warnings)?;
     if let Some((line, a, b)) = joints::missing_edge(layout, &patches) {
         let name = |n: u32| &layout.nodes[n as usize].name;
@@ -191,7 +197,9 @@ pub fn regenerate(
 
     let mut eases = ease_levels(layout, reference.features, &mut warnings)?;
     let build = |push: BTreeMap<String, f64>, stage: &Stage| {
-        let placed = placing.place_all(&push)?;
+        let mut placed = placing.place_all(&push)?;
+        crowding::apply(&moves, &mut placed.positions, &skin);
+        place::symmetrise(layout, &mut placed.positions);
         let curves = stage.construction.curves(&placed.positions, reference.features)?;
         stage.construction.positions(&placed.positions, &curves)
     };
@@ -208,6 +216,7 @@ pub fn regenerate(
             }
         }
         fine.drape.start_from(&rough.drape);
+        eases.iter_mut().for_each(|l| l.secant.restart());
     }
     let faces: Vec<_> = eases.iter().map(|l| l.faces(fine.refined)).collect();
     let rounds = if rough.is_some() { FINE_ROUNDS } else { EASE_ROUNDS };

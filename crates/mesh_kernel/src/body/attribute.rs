@@ -154,6 +154,24 @@ impl Surface {
         }
     }
 
+    /// Whether attribute nodes lie on one of the edges or in one of the faces, or attribute edges run through one.
+    pub(crate) fn carries_attributes(&self, edges: &[u32], faces: &[u32]) -> bool {
+        let hosted = self.attribute_nodes.iter().any(|n| match n {
+            AttributeNode::OnEdge { edge, .. } => edges.contains(&edge.0),
+            AttributeNode::InFace { face, .. } => faces.contains(&face.0),
+        });
+        let index = OnceCell::new();
+        hosted
+            || self.attribute_edges.iter().flat_map(|l| l.nodes.windows(2)).any(|pair| {
+                let [a, b] = [pair[0], pair[1]].map(|n| &self.attribute_nodes[n.index()]);
+                match self.carrier(a, b, &index) {
+                    Some(Carrier::Face(f)) => faces.contains(&f),
+                    Some(Carrier::Edge(e)) => edges.contains(&e),
+                    None => false,
+                }
+            })
+    }
+
     /// The node at which an attribute node lies, if it is an end of its edge.
     pub(crate) fn at_node(&self, node: &AttributeNode) -> Option<u32> {
         match *node {

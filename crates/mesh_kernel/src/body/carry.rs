@@ -82,22 +82,22 @@ fn along(a: [f64; 3], b: [f64; 3], p: [f64; 3]) -> f64 {
 }
 
 impl Surface {
-    /// Whether two attribute nodes lie on different halves of an edge that carries both, neither in its middle.
-    fn straddles_middle(&self, a: &AttributeNode, b: &AttributeNode, e: u32) -> bool {
+    /// Whether two attribute nodes lie on different sides of place `at` of an edge that carries both.
+    fn straddles(&self, a: &AttributeNode, b: &AttributeNode, e: u32, at: f64) -> bool {
         let parameter = |n: &AttributeNode| match *n {
             AttributeNode::OnEdge { edge, u } if edge.0 == e => Some(u),
             _ => self.at_node(n).map(|v| if v == self.edges[e as usize][0] { 0.0 } else { 1.0 }),
         };
-        matches!((parameter(a), parameter(b)), (Some(u), Some(w)) if (u - 0.5) * (w - 0.5) < 0.0)
+        matches!((parameter(a), parameter(b)), (Some(u), Some(w)) if (u - at) * (w - at) < 0.0)
     }
 
     /// Moves attributes to the parts of their hosts, before the surface itself is changed.
     ///
-    /// `halves` gives the two edges, in its direction, that an edge is halved into, `pieces` what a face is cut into;
-    /// `None` where it stays. Attribute edges get a node wherever they cross a cut.
+    /// `halves` gives the two edges, in its direction, that an edge is cut into, and the parameter where; `pieces` gives
+    /// what a face is cut into; `None` where it stays. Attribute edges get a node wherever they cross a cut.
     pub(crate) fn carry_attributes(
         &mut self,
-        halves: impl Fn(u32) -> Option<[EdgeId; 2]>,
+        halves: impl Fn(u32) -> Option<([EdgeId; 2], f64)>,
         pieces: impl Fn(u32) -> Option<Piece>,
     ) {
         let index = OnceCell::new();
@@ -113,8 +113,8 @@ impl Surface {
                 let f = match self.carrier(a, b, &index) {
                     Some(Carrier::Face(f)) => f,
                     Some(Carrier::Edge(e)) => {
-                        if let Some([first, _]) = halves(e)
-                            && self.straddles_middle(a, b, e)
+                        if let Some(([first, _], at)) = halves(e)
+                            && self.straddles(a, b, e, at)
                         {
                             nodes.push(AttributeNodeId((old.len() + added.len()) as u32));
                             added.push(AttributeNode::OnEdge { edge: first, u: 1.0 });
@@ -135,8 +135,9 @@ impl Surface {
         for node in &mut self.attribute_nodes {
             match *node {
                 AttributeNode::OnEdge { edge, u } => {
-                    if let Some([first, second]) = halves(edge.0) {
-                        let (edge, u) = if u <= 0.5 { (first, 2.0 * u) } else { (second, 2.0 * u - 1.0) };
+                    if let Some(([first, second], at)) = halves(edge.0) {
+                        let (edge, u) =
+                            if u <= at { (first, u / at) } else { (second, (u - at) / (1.0 - at)) };
                         *node = AttributeNode::OnEdge { edge, u };
                     }
                 }

@@ -40,7 +40,9 @@ pub enum AddError {
         edge: EdgeId,
     },
     /// A face runs over the edge in this direction already.
-    #[error("surface {surface}: face {face} runs over edge {edge} in the same direction; turn the new face round")]
+    #[error(
+        "surface {surface}: face {face} runs over edge {edge} in the same direction; turn the new face round"
+    )]
     SideTaken {
         /// Surface.
         surface: SurfaceId,

@@ -36,6 +36,7 @@ mod chain;
 mod check;
 mod complex;
 mod counts;
+pub mod edit;
 mod free_boundary;
 mod from_tri_mesh;
 mod homology;

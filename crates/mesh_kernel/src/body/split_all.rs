@@ -211,7 +211,7 @@ fn split_surface(s: &mut Surface, midpoints: Option<&[DVec3]>) -> SurfaceSplit {
 fn carry_attributes(s: &mut Surface, split: &SurfaceSplit) {
     let inner = 2 * split.old_edges;
     s.carry_attributes(
-        |e| Some([EdgeId(2 * e), EdgeId(2 * e + 1)]),
+        |e| Some(([EdgeId(2 * e), EdgeId(2 * e + 1)], 0.5)),
         |f| {
             let faces = (0..4).map(|i| (4 * f + i, CHILDREN[i as usize])).collect();
             let cut = |i: usize| {

@@ -198,7 +198,7 @@ impl Plan {
         let (first_node, first_half) = (s.positions.len() as u32, s.edges.len() as u32);
         if !s.attribute_nodes.is_empty() {
             s.carry_attributes(
-                |e| self.place(e).map(|k| [EdgeId(e), EdgeId(first_half + k)]),
+                |e| self.place(e).map(|k| ([EdgeId(e), EdgeId(first_half + k)], 0.5)),
                 |f| self.faces.get(&f).map(|(cutting, faces, cuts)| cutting.piece(f, *faces, *cuts)),
             );
         }

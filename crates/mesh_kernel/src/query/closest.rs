@@ -43,7 +43,10 @@ struct Triangle {
 impl ClosestPoint {
     /// Builds the hierarchy. O(n log n).
     pub fn new(mesh: &TriMesh) -> Self {
-        let bvh = Bvh::new(mesh);
+        Self::with_bvh(Bvh::new(mesh), mesh)
+    }
+
+    pub(super) fn with_bvh(bvh: Bvh, mesh: &TriMesh) -> Self {
         let corners = |f: u32| if f == VACANT { [DVec3::ZERO; 3] } else { mesh.corners(f) };
         let triangles = bvh.order.iter().map(|f| Triangle::new(corners(*f))).collect();
         let local = |f: &u32| corners(*f).map(|p| p - bvh.origin);

@@ -16,6 +16,8 @@ pub struct Crossings {
     bvh: Bvh,
     positions: Vec<DVec3>,
     faces: Vec<[u32; 3]>,
+    /// Faces in the hierarchy; later ones are compared with these, not with each other.
+    known: u32,
 }
 
 /// Faces that one thread handles at a time.
@@ -24,7 +26,12 @@ const CHUNK: usize = 512;
 impl Crossings {
     /// Builds the hierarchy. O(n log n).
     pub fn new(mesh: &TriMesh) -> Self {
-        Self { bvh: Bvh::new(mesh), positions: mesh.positions.clone(), faces: mesh.faces.clone() }
+        Self::with_bvh(Bvh::new(mesh), mesh, mesh.faces.len())
+    }
+
+    /// With a hierarchy over the first `known` faces of the mesh alone.
+    pub(super) fn with_bvh(bvh: Bvh, mesh: &TriMesh, known: usize) -> Self {
+        Self { bvh, positions: mesh.positions.clone(), faces: mesh.faces.clone(), known: known as u32 }
     }
 
     /// All pairs (face of `other`, face of this mesh) that have a point in common, in ascending order. O(n log m) plus

@@ -4,13 +4,16 @@
 //! by caps over its holes, the winding number therefore is the one just beside the closest face, unless a cap lies
 //! between, and it is a whole number that is the same along connected faces that nothing crosses: one number a patch,
 //! computed beforehand. The side of the face is that of the pseudonormal (Bærentzen, Aanæs 2005). What the caps add is
-//! bounded by their area over the squared distance; while it stays below one half, the sign is certain. All other
-//! points (beside holes, at faces that cross others, on the surface) ask the hierarchy of solid angles.
+//! bounded by their area over the squared distance; while it stays below one half, the sign is certain. Nearer to a hole
+//! the caps' own winding number is taken. All other points (with a cap between, at faces that cross others, on the
+//! surface) ask the hierarchy of all solid angles.
 
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use glam::DVec3;
 
+use super::bvh::Bvh;
 use super::welded::welded;
 use super::winding::half_solid_angle;
 use super::{Adjacency, ClosestPoint, Crossings, WindingNumber};
@@ -48,6 +51,7 @@ pub struct SignedDistance {
     /// Winding number just outside each face, in the mesh closed by caps; [`UNKNOWN`] where it is not one number.
     outside: Vec<i32>,
     caps: Vec<Cap>,
+    cap_surface: Option<CapSurface>,
     bounds: [DVec3; 2],
     /// Below this distance the side is not taken from a difference of coordinates.
     rounding: f64,
@@ -62,7 +66,15 @@ struct Cap {
     weight: f64,
 }
 
+/// The cones over all holes, cut into small faces.
+#[derive(Clone, Debug)]
+struct CapSurface {
+    closest: ClosestPoint,
+    winding: WindingNumber,
+}
+
 const UNKNOWN: i32 = i32::MIN;
+const MOST_RINGS: f64 = 32.0;
 /// More holes than this, and the caps are not worth looking at one by one.
 const MOST_CAPS: usize = 256;
 
@@ -75,19 +87,21 @@ impl SignedDistance {
             (0..welded.faces.len() as u32).map(|f| welded.area_normal(f).normalize_or_zero()).collect();
         let (closed, caps) = close(&welded, &adjacency);
         let mut uncrossed: Vec<bool> = face_normals.iter().map(|n| *n != DVec3::ZERO).collect();
-        for (f, g) in Crossings::new(&closed).self_crossing() {
+        let bvh = Bvh::new(&welded);
+        for (f, g) in Crossings::with_bvh(bvh.clone(), &closed, welded.faces.len()).self_crossing() {
             for face in [f, g] {
                 if let Some(uncrossed) = uncrossed.get_mut(face as usize) {
                     *uncrossed = false;
                 }
             }
         }
-        let winding = WindingNumber::new(&welded);
+        let winding = WindingNumber::with_bvh(bvh.clone(), &welded);
         let cap_faces: Vec<[DVec3; 3]> =
             (welded.faces.len() as u32..closed.faces.len() as u32).map(|f| closed.corners(f)).collect();
         let mut query = Self {
-            closest: ClosestPoint::new(&welded),
+            closest: ClosestPoint::with_bvh(bvh, &welded),
             winding,
+            cap_surface: None,
             edge_normals: vec![DVec3::ZERO; 3 * welded.faces.len()],
             node_normals: vec![DVec3::ZERO; welded.positions.len()],
             node_certain: vec![false; welded.positions.len()],
@@ -101,6 +115,11 @@ impl SignedDistance {
         query.rounding = 1e-12 * query.bounds[0].abs().max(query.bounds[1].abs()).max_element();
         if query.caps.len() <= MOST_CAPS {
             query.number_patches(&welded, &adjacency, &uncrossed, &cap_faces);
+        }
+        if !query.caps.is_empty() && query.caps.len() <= MOST_CAPS {
+            let caps = TriMesh::new(closed.positions, closed.faces[welded.faces.len()..].to_vec());
+            query.cap_surface =
+                Some(CapSurface { closest: ClosestPoint::new(&caps), winding: WindingNumber::new(&caps) });
         }
         query.normals(&welded, &adjacency);
         query.faces = welded.faces;
@@ -120,10 +139,16 @@ impl SignedDistance {
         let side_known = certain
             && outside != UNKNOWN
             && closest.distance > self.rounding
-            && along.abs() > 1e-6 * closest.distance
-            && self.caps_are_far(p, closest.point);
-        let inside =
-            if side_known { outside + i32::from(along < 0.0) >= 1 } else { self.winding.is_above(p, 0.5) };
+            && along.abs() > 1e-6 * closest.distance;
+        let beside = outside.saturating_add(i32::from(along < 0.0));
+        let inside = if side_known && self.caps_are_far(p, closest.point) {
+            Some(beside >= 1)
+        } else if side_known {
+            self.inside_beside_caps(p, closest.distance, f64::from(beside))
+        } else {
+            None
+        };
+        let inside = inside.unwrap_or_else(|| self.winding.is_above(p, 0.5));
         let distance = if inside { -closest.distance } else { closest.distance };
         Signed { distance, point: closest.point, face: closest.face, normal }
     }
@@ -166,6 +191,18 @@ impl SignedDistance {
             }
         }
         visible < 0.499
+    }
+
+    /// Whether `p` is inside where caps are near: `beside` is the winding number of mesh and caps together at the closest
+    /// point, which is `distance` away. `None` where a cap may lie between or the error decides.
+    fn inside_beside_caps(&self, p: DVec3, distance: f64, beside: f64) -> Option<bool> {
+        let caps = self.cap_surface.as_ref()?;
+        if caps.closest.closest_within(p, distance * (1.0 + 1e-9)).is_some() {
+            return None;
+        }
+        let number = caps.winding.winding(p, 1e-3);
+        let margin = beside - number.value - 0.5;
+        (margin.abs() > number.error + 1e-9).then_some(margin > 0.0)
     }
 
     /// The normal at a point of a face, and whether its sign tells the side.
@@ -346,21 +383,57 @@ fn close(mesh: &TriMesh, adjacency: &Adjacency) -> (TriMesh, Vec<Cap>) {
         let apex = ends().sum::<DVec3>() / (2 * set.len()) as f64;
         let number = closed.positions.len() as u32;
         closed.positions.push(apex);
+        let cap_start = closed.faces.len();
         let mut cap = Cap { centre: apex, radius: 0.0, weight: 0.0 };
+        // Rings between hole and apex, so that faces of a wide cap are not long and thin.
+        let mean_side = set
+            .iter()
+            .map(|(_, [a, b], _)| closed.positions[*a as usize].distance(closed.positions[*b as usize]))
+            .sum::<f64>()
+            / set.len() as f64;
+        let widest = ends().map(|p| p.distance(apex)).fold(0.0, f64::max);
+        let rings = if mean_side > 0.0 {
+            (widest / (2.0 * mean_side)).ceil().clamp(1.0, MOST_RINGS) as u32
+        } else {
+            1
+        };
+        let mut ring_nodes: BTreeMap<u32, u32> = BTreeMap::new();
+        for v in set.iter().flat_map(|(_, edge, _)| *edge) {
+            ring_nodes.entry(v).or_insert_with(|| {
+                let first = closed.positions.len() as u32;
+                for ring in 1..rings {
+                    let p = closed.positions[v as usize].lerp(apex, f64::from(ring) / f64::from(rings));
+                    closed.positions.push(p);
+                }
+                first
+            });
+        }
+        let node = |v: u32, ring: u32| match ring {
+            0 => v,
+            _ if ring == rings => number,
+            _ => ring_nodes[&v] + ring - 1,
+        };
         for (_, [a, b], count) in set {
             for _ in 0..*count {
-                cap.weight += closed_area(&closed, [*b, *a, number]) / (2.0 * TAU);
-                closed.faces.push([*b, *a, number]);
+                for ring in 0..rings {
+                    let quad = [node(*b, ring), node(*a, ring), node(*a, ring + 1), node(*b, ring + 1)];
+                    closed.faces.push([quad[0], quad[1], quad[2]]);
+                    if ring + 1 < rings {
+                        closed.faces.push([quad[0], quad[2], quad[3]]);
+                    }
+                }
             }
         }
+        let cap_faces = &closed.faces[cap_start..];
+        cap.weight = cap_faces.iter().map(|face| face_area(&closed, *face)).sum::<f64>() / (2.0 * TAU);
         // A little more than the farthest corner, against rounding.
-        cap.radius = ends().map(|p| p.distance(apex)).fold(0.0, f64::max) * (1.0 + 1e-9);
+        cap.radius = widest * (1.0 + 1e-9);
         caps.push(cap);
     }
     (closed, caps)
 }
 
-fn closed_area(mesh: &TriMesh, face: [u32; 3]) -> f64 {
+fn face_area(mesh: &TriMesh, face: [u32; 3]) -> f64 {
     let [a, b, c] = face.map(|v| mesh.positions[v as usize]);
     0.5 * (b - a).cross(c - a).length()
 }

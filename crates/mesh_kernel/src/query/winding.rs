@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use glam::{DMat3, DVec3};
 
-use super::bvh::{Bvh, VACANT};
+use super::bvh::{Bvh, LEAF, VACANT};
 use crate::TriMesh;
 
 /// How often the mesh winds around `p`: 1 inside and 0 outside a closed mesh with outward faces, in between for meshes
@@ -48,8 +48,10 @@ pub struct WindingNumber {
 /// What a set of faces looks like from afar; positions relative to the hierarchy's origin.
 #[derive(Clone, Debug)]
 struct Moments {
+    area: f64,
+    /// Centroid.
     centre: DVec3,
-    /// Farthest corner from the centre.
+    /// No corner is farther from the centre; negative for no faces.
     radius: f64,
     /// Sum of area vectors.
     dipole: DVec3,
@@ -66,26 +68,30 @@ const LAST_TOLERANCE: f64 = 1e-8;
 impl WindingNumber {
     /// Builds the hierarchy. O(n log n).
     pub fn new(mesh: &TriMesh) -> Self {
-        let bvh = Bvh::new(mesh);
+        Self::with_bvh(Bvh::new(mesh), mesh)
+    }
+
+    pub(super) fn with_bvh(bvh: Bvh, mesh: &TriMesh) -> Self {
         let corners =
             |f: u32| if f == VACANT { [DVec3::ZERO; 3] } else { mesh.corners(f).map(|p| p - bvh.origin) };
         let triangles: Vec<[DVec3; 3]> = bvh.order.iter().map(|f| corners(*f)).collect();
         // From the bottom up: children have larger numbers than their parent.
-        let mut members: Vec<Vec<u32>> = vec![Vec::new(); bvh.nodes.len()];
-        let mut moments = Vec::with_capacity(4 * bvh.nodes.len());
+        let mut moments = vec![Moments::EMPTY; 4 * bvh.nodes.len()];
         for node in (0..bvh.nodes.len()).rev() {
-            let mut all = Vec::new();
-            for child in bvh.nodes[node].children.iter().rev() {
-                let faces = match child.get() {
-                    Ok(leaf) => leaf.map(|k| k as u32).collect(),
-                    Err(below) => std::mem::take(&mut members[below]),
+            for slot in 0..4 {
+                moments[4 * node + slot] = match bvh.nodes[node].children[slot].get() {
+                    Ok(leaf) => {
+                        let faces: [Moments; LEAF] =
+                            std::array::from_fn(|k| match triangles[leaf.clone()].get(k) {
+                                Some(face) => Moments::of_face(face),
+                                None => Moments::EMPTY,
+                            });
+                        Moments::join(&faces)
+                    }
+                    Err(below) => Moments::join(&moments[4 * below..4 * below + 4]),
                 };
-                moments.push(Moments::of(&triangles, &faces));
-                all.extend(faces);
             }
-            members[node] = all;
         }
-        moments.reverse();
         Self { bvh, triangles, moments }
     }
 
@@ -150,33 +156,50 @@ impl WindingNumber {
 }
 
 impl Moments {
-    fn of(triangles: &[[DVec3; 3]], faces: &[u32]) -> Self {
-        let faces = || faces.iter().map(|k| &triangles[*k as usize]);
-        let vector = |[a, b, c]: &[DVec3; 3]| 0.5 * (*b - *a).cross(*c - *a);
-        let (mut area, mut centre, mut dipole) = (0.0, DVec3::ZERO, DVec3::ZERO);
-        for face in faces() {
-            let vector = vector(face);
-            let size = vector.length();
-            area += size;
-            centre += (face[0] + face[1] + face[2]) * (size / 3.0);
-            dipole += vector;
+    const EMPTY: Self = Self {
+        area: 0.0,
+        centre: DVec3::ZERO,
+        radius: -1.0,
+        dipole: DVec3::ZERO,
+        first: DMat3::ZERO,
+        spread: 0.0,
+    };
+
+    fn of_face(corners: &[DVec3; 3]) -> Self {
+        let [a, b, c] = *corners;
+        let centre = (a + b + c) / 3.0;
+        let dipole = 0.5 * (b - a).cross(c - a);
+        let area = dipole.length();
+        let squares = corners.map(|p| p.distance_squared(centre));
+        let radius = squares[0].max(squares[1]).max(squares[2]).sqrt();
+        // The first moment about the centroid vanishes; ∫ |x − centre|² dA = area / 12 · Σ |corner − centre|².
+        let spread = area / 12.0 * (squares[0] + squares[1] + squares[2]);
+        Self { area, centre, radius, dipole, first: DMat3::ZERO, spread }
+    }
+
+    /// All in one, moved to the common centroid.
+    fn join(parts: &[Self]) -> Self {
+        let parts = || parts.iter().filter(|part| part.radius >= 0.0);
+        let area: f64 = parts().map(|part| part.area).sum();
+        let count = parts().count();
+        if count == 0 {
+            return Self::EMPTY;
         }
-        let centre = if area > 0.0 { centre / area } else { faces().next().map_or(DVec3::ZERO, |f| f[0]) };
-        let mut set = Self { centre, radius: 0.0, dipole, first: DMat3::ZERO, spread: 0.0 };
-        for face in faces() {
-            let vector = vector(face);
-            let corners = face.map(|p| p - centre);
-            let sum = corners[0] + corners[1] + corners[2];
-            let squares = corners.map(DVec3::length_squared);
-            set.radius = set.radius.max(squares[0].max(squares[1]).max(squares[2]));
-            set.spread +=
-                vector.length() / 12.0 * (squares[0] + squares[1] + squares[2] + sum.length_squared());
-            let third = sum / 3.0;
-            set.first.x_axis += third * vector.x;
-            set.first.y_axis += third * vector.y;
-            set.first.z_axis += third * vector.z;
+        let centre = if area > 0.0 {
+            parts().map(|part| part.centre * part.area).sum::<DVec3>() / area
+        } else {
+            parts().map(|part| part.centre).sum::<DVec3>() / count as f64
+        };
+        let mut whole = Self { area, centre, radius: 0.0, ..Self::EMPTY };
+        for part in parts() {
+            let shift = part.centre - centre;
+            whole.radius = whole.radius.max(shift.length() + part.radius);
+            whole.dipole += part.dipole;
+            whole.spread += part.spread + part.area * shift.length_squared();
+            whole.first.x_axis += part.first.x_axis + shift * part.dipole.x;
+            whole.first.y_axis += part.first.y_axis + shift * part.dipole.y;
+            whole.first.z_axis += part.first.z_axis + shift * part.dipole.z;
         }
-        set.radius = set.radius.sqrt();
-        set
+        whole
     }
 }

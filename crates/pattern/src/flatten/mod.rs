@@ -16,6 +16,8 @@ mod sheet;
 mod sparse;
 pub(crate) mod topology;
 
+pub(crate) use self::overlap::crossings;
+
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -136,10 +138,13 @@ fn flatten_one(
     loop {
         let open = cut::open(&patch.name, &before, &patch.positions, &given, &preferred, policy)?;
         let space: Vec<DVec3> = open.classes.node_of.iter().map(|&v| patch.positions[v as usize]).collect();
-        let sewn = !open.cut_paths.is_empty() || input.seams.iter().flat_map(|s| &s.sides).any(|s| s.patch == p);
+        let sewn =
+            !open.cut_paths.is_empty() || input.seams.iter().flat_map(|s| &s.sides).any(|s| s.patch == p);
         let stop = if sewn && options.match_seams { Stop::ROUGH } else { Stop::default() };
         let mut sheet = Sheet::new(&open.topology, &space).map_err(|_| unsolvable(&patch.name))?;
-        initial::start(&mut sheet).map_err(|_| unsolvable(&patch.name))?;
+        if !start_from(&mut sheet, input.start.get(p), &open) {
+            initial::start(&mut sheet).map_err(|_| unsolvable(&patch.name))?;
+        }
         let outcome = newton::minimise(&mut sheet, stop).map_err(|_| unsolvable(&patch.name))?;
         if open.kept_holes {
             let (stretch, _) = stretches(&sheet);
@@ -150,6 +155,19 @@ fn flatten_one(
         }
         return Ok(Work { before, open, sheet, outcome });
     }
+}
+
+/// Takes over earlier flat positions when they fit.
+fn start_from(sheet: &mut Sheet, earlier: Option<&Flat>, open: &OpenPatch) -> bool {
+    let Some(earlier) = earlier.filter(|e| e.faces == open.topology.faces) else { return false };
+    for (&c, &p) in sheet.compact.iter().zip(&earlier.uv) {
+        if c != NONE {
+            sheet.flat[c as usize] = p;
+        }
+    }
+    earlier.uv.len() == sheet.compact.len()
+        && sheet.is_flip_free(&sheet.flat)
+        && sheet.excess(&sheet.flat).is_finite()
 }
 
 /// Brings corresponding seam edges to equal lengths at the least total stretch: all pieces that are sewn together are

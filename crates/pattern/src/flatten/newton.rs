@@ -67,7 +67,8 @@ pub(crate) fn minimise(sheet: &mut Sheet, stop: Stop) -> Result<Outcome, NotDefi
             return Err(NotDefinite);
         }
         // With the full Hessian the error after this step is about the square of this.
-        let last = promise <= 2.0 * sheet.area * if near { stop.decrease.sqrt() * 0.1 } else { stop.decrease };
+        let last =
+            promise <= 2.0 * sheet.area * if near { stop.decrease.sqrt() * 0.1 } else { stop.decrease };
         let mut length = longest_step(sheet, &step).min(1.0);
         let mut accepted = false;
         for _ in 0..40 {

@@ -8,7 +8,7 @@ use faer::{
     sparse::{
         SparseColMatRef, SymbolicSparseColMatRef,
         linalg::{
-            SupernodalThreshold,
+            SupernodalThreshold, SymbolicSupernodalParams,
             cholesky::{
                 CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
                 factorize_symbolic_cholesky,
@@ -23,6 +23,9 @@ use super::ordering::{Neighbours, nested_dissection};
 /// The system did not factorise: it is not positive definite.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NotDefinite;
+
+/// How much fill merged columns may bring, by their number: wide blocks are worth some zeros.
+const RELAX: [(usize, f64); 4] = [(8, 1.0), (32, 0.9), (96, 0.3), (usize::MAX, 0.1)];
 
 /// Lower triangle in compressed columns; unknown `2 place + axis`.
 pub(crate) struct BlockSystem {
@@ -104,7 +107,11 @@ impl BlockSystem {
             structure,
             Side::Upper,
             SymmetricOrdering::Identity,
-            CholeskySymbolicParams { supernodal_flop_ratio_threshold: threshold, ..Default::default() },
+            CholeskySymbolicParams {
+                supernodal_flop_ratio_threshold: threshold,
+                supernodal_params: SymbolicSupernodalParams { relax: Some(&RELAX) },
+                ..Default::default()
+            },
         )
         .map_err(|_| NotDefinite)?;
         let need =

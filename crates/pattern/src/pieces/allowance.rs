@@ -18,7 +18,7 @@ use super::{
     outline::{SewingLine, turn},
     simplify::{needed, signed_area},
 };
-use crate::{CornerStyle, CutLoop, PatternOptions};
+use crate::{CornerStyle, CutLoop, PatternOptions, flatten::crossings};
 
 /// One sewing segment with its allowance.
 #[derive(Clone, Copy)]
@@ -47,6 +47,7 @@ pub(crate) fn cut_lines(lines: &[SewingLine], options: &PatternOptions) -> Vec<C
     let body: Vec<Vec<[f64; 2]>> =
         lines.iter().map(|l| l.outline.points().iter().map(|p| p.to_array()).collect()).collect();
     let mut added: Vec<Vec<[f64; 2]>> = Vec::new();
+    let mut trimmed: Vec<Vec<[f64; 2]>> = Vec::new();
     for line in lines {
         let segments = segments(line);
         for (i, s) in segments.iter().enumerate() {
@@ -58,12 +59,18 @@ pub(crate) fn cut_lines(lines: &[SewingLine], options: &PatternOptions) -> Vec<C
             if let Some(wedge) = wedge(s, next, options.mitre_limit) {
                 added.push(polygon(&wedge));
             }
+            trimmed.extend(trim(s, next).map(|t| polygon(&t)));
         }
     }
     let shapes = if added.is_empty() {
         vec![body]
     } else {
         body.overlay(&added, OverlayRule::Union, FillRule::NonZero)
+    };
+    let shapes = if trimmed.is_empty() {
+        shapes
+    } else {
+        shapes.overlay(&trimmed, OverlayRule::Difference, FillRule::NonZero)
     };
     let mut loops: Vec<Vec<DVec2>> = shapes
         .into_iter()
@@ -157,6 +164,27 @@ fn wedge(a: &Segment, b: &Segment, limit: f64) -> Option<Vec<DVec2>> {
     Some(vec![p, ea, cut(ea), cut(eb), eb])
 }
 
+/// What a mirrored allowance loses where its neighbour's edge slopes inward: folded back it would stick out.
+fn trim(a: &Segment, b: &Segment) -> Option<[DVec2; 4]> {
+    let (ta, tb, na, nb) = (a.along(), b.along(), a.outward(), b.outward());
+    let (sin, p) = (ta.perp_dot(tb), a.to);
+    if !a.ends_chain || sin <= 1e-9 || ta.dot(tb) >= 0.0 {
+        return None;
+    }
+    let far = 2.0 * (a.width + b.width);
+    if a.style == CornerStyle::Mirrored && a.width > 0.0 {
+        let on_a = p + ta * (b.width / sin);
+        let end = on_a + (tb - 2.0 * tb.dot(na) * na) * (a.width / sin) * 1.01;
+        return Some([on_a, end, end + ta * (far + (on_a - end).dot(ta)), on_a + ta * far]);
+    }
+    if b.style == CornerStyle::Mirrored && b.width > 0.0 {
+        let on_b = p - tb * (a.width / sin);
+        let end = on_b - (ta - 2.0 * ta.dot(nb) * nb) * (b.width / sin) * 1.01;
+        return Some([on_b, on_b - tb * far, end - tb * (far - (on_b - end).dot(tb)), end]);
+    }
+    None
+}
+
 /// Orders, thins and classifies the points of a loop.
 fn finish(mut points: Vec<DVec2>, outer: bool, options: &PatternOptions) -> CutLoop {
     if (signed_area(&points) > 0.0) != outer {
@@ -171,6 +199,8 @@ fn finish(mut points: Vec<DVec2>, outer: bool, options: &PatternOptions) -> CutL
     let walked: Vec<DVec2> = (0..=n).map(|i| points[(start + i) % n]).collect();
     let corner: Vec<bool> = (0..=n).map(|i| is_corner((start + i) % n)).collect();
     let kept = needed(&walked, 0.5 * options.line_tolerance_mm, |i| corner[i] || i == n / 2);
+    // Where the cut line all but touches itself, thinning may make it cross.
+    let kept = if is_simple(&walked, &kept) { kept } else { (0..=n).collect() };
     let kept = &kept[..kept.len() - 1];
     let points: Vec<DVec2> = kept.iter().map(|&i| walked[i]).collect();
     // A raw corner of a dense curve may turn out smooth once thinned, never the other way round.
@@ -183,4 +213,10 @@ fn finish(mut points: Vec<DVec2>, outer: bool, options: &PatternOptions) -> CutL
         })
         .collect();
     CutLoop { points, corner }
+}
+
+/// Whether the closed line through some of the points does not cross itself.
+fn is_simple(points: &[DVec2], kept: &[usize]) -> bool {
+    let rim: Vec<u32> = kept[..kept.len() - 1].iter().map(|&i| i as u32).collect();
+    crossings(points, &[rim]) == 0
 }

@@ -10,8 +10,9 @@ use glam::DVec3;
 
 use super::factor::{FactorError, SparseFactor, SymmetricPattern};
 
-/// Cotangents beyond this (angles below some 2°) are cut off, so that one sliver cannot drown all else in rounding.
-const STEEPEST_COTANGENT: f64 = 30.0;
+/// Triangles flatter than this (height over longest side) count as this high: a sliver of the template, where nodes have
+/// come close on some body, must not be stiffer than all the rest.
+const FLATTEST: f64 = 0.1;
 
 /// Two triangles at an edge: the edge's nodes and the two opposite ones.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,14 +37,21 @@ impl Flap {
     }
 }
 
-/// Cotangents at the first two corners, and the area.
+/// Cotangents at the first two corners, and the area, of a triangle that is made at least [`FLATTEST`] high.
 fn cotangents([a, b, c]: [DVec3; 3]) -> [f64; 3] {
-    let double = (b - a).cross(c - a).length();
-    let cot = |at: DVec3, p: DVec3, q: DVec3| {
-        let dot = (p - at).dot(q - at);
-        if double > 0.0 { (dot / double).clamp(-STEEPEST_COTANGENT, STEEPEST_COTANGENT) } else { 0.0 }
-    };
-    [cot(a, b, c), cot(b, a, c), 0.5 * double]
+    let lengths = [b.distance_squared(a), c.distance_squared(b), a.distance_squared(c)];
+    // Stand the triangle on its longest side.
+    let base = (0..3).fold(0, |m, i| if lengths[i] > lengths[m] { i } else { m });
+    let corner = |i: usize| [a, b, c][(base + i) % 3];
+    let (p, q, r) = (corner(0), corner(1), corner(2));
+    let width = lengths[base].sqrt().max(1e-12);
+    let foot = ((r - p).dot(q - p) / width).clamp(0.0, width);
+    let height = ((q - p).cross(r - p).length() / width).max(FLATTEST * width);
+    let (at_p, at_q) = (foot / height, (width - foot) / height);
+    let at_r = (1.0 - at_p * at_q) / (at_p + at_q);
+    // Back to the order a, b, c.
+    let cot = [at_p, at_q, at_r];
+    [cot[(3 - base) % 3], cot[(4 - base) % 3], 0.5 * width * height]
 }
 
 /// The flaps of a triangle surface in the order of its faces: one for each edge with exactly two faces, shapes taken from

@@ -1,0 +1,248 @@
+//! One template on many bodies: what fails is reported and the rest goes on; an interrupted run is taken up again.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+use mesh_kernel::files;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use template::Template;
+
+use crate::fingerprint::Fingerprint;
+use crate::output::{OutputError, OutputFile, write_all};
+use crate::regenerate::{Artifact, Settings, regenerate};
+
+/// How a batch runs.
+#[derive(Clone, Debug)]
+pub struct BatchOptions {
+    /// How every garment is built.
+    pub settings: Settings,
+    /// What is written of it.
+    pub artifacts: Vec<Artifact>,
+    /// Which part of the list.
+    pub shard: Shard,
+    /// Build again what is there already.
+    pub again: bool,
+}
+
+/// A part of a list that several machines share.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    part: usize,
+    of: usize,
+}
+
+impl Shard {
+    /// Part `part` of `of`, counted from 1.
+    pub fn new(part: usize, of: usize) -> Option<Self> {
+        (1 <= part && part <= of).then_some(Self { part, of })
+    }
+
+    /// Whether the list's item `index` belongs to it. Neighbours go to different parts, so that all end about together.
+    pub fn has(self, index: usize) -> bool {
+        index % self.of == self.part - 1
+    }
+}
+
+impl Default for Shard {
+    /// The whole list.
+    fn default() -> Self {
+        Self { part: 1, of: 1 }
+    }
+}
+
+/// What became of all bodies.
+#[derive(Clone, Debug, Serialize)]
+pub struct Batch {
+    /// Name of the template.
+    pub template: String,
+    /// One entry a body of this shard, in the list's order.
+    pub bodies: Vec<BatchBody>,
+}
+
+impl Batch {
+    /// How many failed.
+    pub fn failed(&self) -> usize {
+        self.bodies.iter().filter(|b| b.state == BodyState::Failed).count()
+    }
+}
+
+/// What became of one body.
+#[derive(Clone, Debug, Serialize)]
+pub struct BatchBody {
+    /// Name of its folder of results.
+    pub name: String,
+    /// The mesh file.
+    pub file: PathBuf,
+    /// How it went.
+    pub state: BodyState,
+    /// Why it failed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error: Option<String>,
+    /// Warnings of the report.
+    pub warnings: usize,
+    /// Wall-clock seconds.
+    pub seconds: f64,
+}
+
+/// How a body of a batch went.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum BodyState {
+    /// Built now.
+    Built,
+    /// An earlier run had finished it with the same inputs.
+    Kept,
+    /// See the error.
+    Failed,
+}
+
+impl fmt::Display for BodyState {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Built => "built",
+            Self::Kept => "kept",
+            Self::Failed => "failed",
+        })
+    }
+}
+
+/// What of an earlier report tells whether it is still good.
+#[derive(Deserialize)]
+struct Earlier {
+    fingerprint: String,
+    warnings: Vec<String>,
+}
+
+/// Rebuilds `template` on every body of the shard, bodies in parallel, each into a folder of its own under `out`.
+///
+/// A folder is named after its file; files of one name from different folders are numbered in the list's order. A body
+/// whose folder holds the report of the same inputs is kept as it is. `progress` hears how many of how many are done.
+/// `batch.json` (with more than one shard `batch-I-of-N.json`) lists what became of them.
+///
+/// # Errors
+/// Only when `batch.json` cannot be written; everything else is an entry of the result.
+pub fn run_batch(
+    template: &Template,
+    bodies: &[PathBuf],
+    out: &Path,
+    options: &BatchOptions,
+    progress: &(dyn Fn(usize, usize, &str) + Sync),
+) -> Result<Batch, OutputError> {
+    let names = folder_names(bodies);
+    let mine: Vec<(&PathBuf, &String)> = bodies
+        .iter()
+        .zip(&names)
+        .enumerate()
+        .filter(|(i, _)| options.shard.has(*i))
+        .map(|(_, pair)| pair)
+        .collect();
+    let done = AtomicUsize::new(0);
+    let results = mine
+        .par_iter()
+        .map(|(file, name)| {
+            let started = Instant::now();
+            let result = one(template, file, &out.join(name), options);
+            progress(done.fetch_add(1, Ordering::Relaxed) + 1, mine.len(), name);
+            let (state, error, warnings) = match result {
+                Ok((state, warnings)) => (state, None, warnings),
+                Err(error) => (BodyState::Failed, Some(error), 0),
+            };
+            let seconds = started.elapsed().as_secs_f64();
+            BatchBody { name: (*name).clone(), file: (*file).clone(), state, error, warnings, seconds }
+        })
+        .collect();
+    let batch = Batch { template: template.file().name.clone(), bodies: results };
+    let name = match options.shard {
+        Shard { of: 1, .. } => "batch.json".to_owned(),
+        Shard { part, of } => format!("batch-{part}-of-{of}.json"),
+    };
+    let bytes = serde_json::to_vec_pretty(&batch).unwrap_or_default();
+    write_all(out, &[OutputFile { name: name.into(), bytes }])?;
+    Ok(batch)
+}
+
+fn one(
+    template: &Template,
+    file: &Path,
+    folder: &Path,
+    options: &BatchOptions,
+) -> Result<(BodyState, usize), String> {
+    let started = Instant::now();
+    let format = files::Format::of_path(file)
+        .ok_or_else(|| format!("{}: not an OBJ, PLY, STL, OFF or GLB file", file.display()))?;
+    let bytes = std::fs::read(file).map_err(|e| format!("cannot read {}: {e}", file.display()))?;
+    let fingerprint = Fingerprint::default()
+        .with(env!("CARGO_PKG_VERSION").as_bytes())
+        .with(template.to_json().as_bytes())
+        .with(format!("{:?} {:?}", options.settings, options.artifacts).as_bytes())
+        .with(&bytes)
+        .text();
+    if !options.again
+        && let Ok(text) = std::fs::read(folder.join("report.json"))
+        && let Ok(earlier) = serde_json::from_slice::<Earlier>(&text)
+        && earlier.fingerprint == fingerprint
+    {
+        return Ok((BodyState::Kept, earlier.warnings.len()));
+    }
+    let mesh = files::parse(format, &bytes).map_err(|e| e.to_string())?;
+    let name = file.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+    let load = started.elapsed().as_secs_f64();
+    let mut built =
+        regenerate(template, &name, &mesh, &options.settings, &|_| true).map_err(|e| e.to_string())?;
+    built.report.seconds.load = load;
+    built.report.fingerprint = Some(fingerprint);
+    built.write(folder, &options.artifacts, started).map_err(|e| e.to_string())?;
+    Ok((BodyState::Built, built.report.warnings.len()))
+}
+
+/// Folder names: the files' stems; a stem that comes again gets a number.
+fn folder_names(bodies: &[PathBuf]) -> Vec<String> {
+    let mut seen: BTreeMap<String, usize> = BTreeMap::new();
+    let stem =
+        |p: &PathBuf| p.file_stem().map_or_else(|| "body".to_owned(), |s| s.to_string_lossy().into_owned());
+    let stems: Vec<String> = bodies.iter().map(stem).collect();
+    let mut names: Vec<String> = Vec::with_capacity(stems.len());
+    for stem in &stems {
+        let count = seen.entry(stem.clone()).or_insert(0);
+        *count += 1;
+        let mut name = if *count == 1 { stem.clone() } else { format!("{stem}-{count}") };
+        while names.contains(&name) || (*count > 1 && stems.contains(&name)) {
+            *count += 1;
+            name = format!("{stem}-{count}");
+        }
+        names.push(name);
+    }
+    names
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shards_cover_the_list_once() {
+        for of in 1..6 {
+            for index in 0..20 {
+                let holders = (1..=of).filter(|&part| Shard::new(part, of).unwrap().has(index)).count();
+                assert_eq!(holders, 1);
+            }
+        }
+        assert!(Shard::new(0, 3).is_none() && Shard::new(4, 3).is_none() && Shard::new(1, 0).is_none());
+    }
+
+    #[test]
+    fn folders_do_not_collide() {
+        let bodies: Vec<PathBuf> =
+            ["a/x.obj", "b/x.ply", "x-2.obj", "c/x.stl"].iter().map(PathBuf::from).collect();
+        let names = folder_names(&bodies);
+        let mut unique = names.clone();
+        unique.sort();
+        unique.dedup();
+        assert_eq!(unique.len(), bodies.len(), "{names:?}");
+        assert_eq!((names[0].as_str(), names[2].as_str()), ("x", "x-2"));
+    }
+}

@@ -1,0 +1,172 @@
+//! Edge swap: the other diagonal of the two faces at an edge.
+//!
+//! ```text
+//!        c                 c
+//!      /   \             / | \
+//!     a-----b    →      a  |  b
+//!      \   /             \ | /
+//!        d                 d
+//! ```
+//!
+//! Counts do not change (v, e, f + 0). In K3 terms: kill the face on one side with its edge (KEF), make the other edge
+//! with a face (MEF).
+
+use super::Editor;
+use super::journal::Record;
+use crate::body::{EdgeId, JointId, NONE, NodeId, Surface, SurfaceId};
+
+/// Why an edge was not swapped.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum SwapError {
+    /// No such edge.
+    #[error("surface {surface} has no edge {edge}")]
+    NoEdge {
+        /// Surface.
+        surface: SurfaceId,
+        /// Edge.
+        edge: EdgeId,
+    },
+    /// The edge has not two faces.
+    #[error("edge {edge} of surface {surface} has not a face on both sides")]
+    NotInside {
+        /// Surface.
+        surface: SurfaceId,
+        /// Edge.
+        edge: EdgeId,
+    },
+    /// The edge lies on a joint, which holds it to the edges of other sheets.
+    #[error(
+        "edge {edge} of surface {surface} lies on joint {joint} of surfaces {sheets:?}; take it off the joint first"
+    )]
+    OnJoint {
+        /// Surface.
+        surface: SurfaceId,
+        /// Edge.
+        edge: EdgeId,
+        /// Joint.
+        joint: JointId,
+        /// Surfaces that meet there.
+        sheets: Vec<SurfaceId>,
+    },
+    /// The other diagonal is an edge already.
+    #[error("surface {surface}: nodes {} and {} are joined already; swapping would make the edge twice", nodes[0], nodes[1])]
+    EdgeExists {
+        /// Surface.
+        surface: SurfaceId,
+        /// Ends of the other diagonal.
+        nodes: [NodeId; 2],
+    },
+    /// Attributes lie on the edge or its faces and would move.
+    #[error(
+        "edge {edge} of surface {surface} or a face of it carries attributes; triangulate them into edges first"
+    )]
+    CarriesAttributes {
+        /// Surface.
+        surface: SurfaceId,
+        /// Edge.
+        edge: EdgeId,
+    },
+    /// A new face would be turned over or degenerate.
+    #[error("swapping edge {edge} of surface {surface} would turn a face over or flatten it")]
+    Turns {
+        /// Surface.
+        surface: SurfaceId,
+        /// Edge.
+        edge: EdgeId,
+    },
+}
+
+/// Whether an operator looks at the geometry.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Guard {
+    /// Topology alone decides.
+    #[default]
+    None,
+    /// No new face may be degenerate or look away from a face that it replaces.
+    NoTurn,
+}
+
+impl Editor {
+    /// Swaps an edge for the other diagonal of its two faces; the edge and the faces keep their numbers. The edge turns
+    /// anticlockwise: it runs from the corner of its right face to that of its left face.
+    ///
+    /// # Errors
+    /// See [`SwapError`]; nothing is changed then. O(1).
+    pub fn swap_edge(&mut self, surface: SurfaceId, edge: EdgeId, guard: Guard) -> Result<(), SwapError> {
+        self.can_swap(surface, edge, guard)?;
+        self.apply(Record::SwapEdge { surface, edge, clockwise: false });
+        Ok(())
+    }
+
+    fn can_swap(&mut self, surface: SurfaceId, edge: EdgeId, guard: Guard) -> Result<(), SwapError> {
+        let s = self.body.surfaces.get(surface.index()).ok_or(SwapError::NoEdge { surface, edge })?;
+        let &[left, right] = s.edge_faces().get(edge.index()).ok_or(SwapError::NoEdge { surface, edge })?;
+        if left == NONE || right == NONE {
+            return Err(SwapError::NotInside { surface, edge });
+        }
+        if let Some(joint) = s.edge_chain(edge).and_then(|c| s.chain(c).joint()) {
+            let sheets = self.body.joint(joint).uses().iter().map(|u| u.surface).collect();
+            return Err(SwapError::OnJoint { surface, edge, joint, sheets });
+        }
+        if s.carries_attributes(&[edge.0], &[left, right]) {
+            return Err(SwapError::CarriesAttributes { surface, edge });
+        }
+        let (c, d) = (s.apex(left, edge.0), s.apex(right, edge.0));
+        let joined = c == d || self.joined(surface, c, d);
+        if joined {
+            return Err(SwapError::EdgeExists { surface, nodes: [NodeId(c), NodeId(d)] });
+        }
+        if guard == Guard::NoTurn && turns(self.body.surface(surface), edge, c, d) {
+            return Err(SwapError::Turns { surface, edge });
+        }
+        Ok(())
+    }
+
+    /// Turns the edge by a quarter; once each way is the identity, bit for bit.
+    pub(super) fn do_swap(&mut self, surface: SurfaceId, edge: EdgeId, clockwise: bool) {
+        let s = &mut self.body.surfaces[surface.index()];
+        let e = edge.0;
+        let [left, right] = s.edge_faces[edge.index()];
+        let place = |s: &Surface, f: u32| s.face_edges[f as usize].iter().position(|&x| x == e).unwrap_or(0);
+        let (i, j) = (place(s, left), place(s, right));
+        let at = |i: usize| [i, (i + 1) % 3, (i + 2) % 3];
+        let (l, r) = (at(i), at(j));
+        let (ln, rn) = (s.faces[left as usize], s.faces[right as usize]);
+        let (le, re) = (s.face_edges[left as usize], s.face_edges[right as usize]);
+        // Corners of the left face from the edge's start: a, b, c; of the right: b, a, d.
+        let [a, b, c] = l.map(|k| ln[k]);
+        let d = rn[r[2]];
+        let (new_left, left_sides, new_right, right_sides) = if clockwise {
+            ([c, d, b], [e, re[r[2]], le[l[1]]], [d, c, a], [e, le[l[2]], re[r[1]]])
+        } else {
+            ([d, c, a], [e, le[l[2]], re[r[1]]], [c, d, b], [e, re[r[2]], le[l[1]]])
+        };
+        for k in 0..3 {
+            s.faces[left as usize][l[k]] = new_left[k];
+            s.face_edges[left as usize][l[k]] = left_sides[k];
+            s.faces[right as usize][r[k]] = new_right[k];
+            s.face_edges[right as usize][r[k]] = right_sides[k];
+        }
+        // Two of the four other sides change their face.
+        let [to_left, to_right] = if clockwise { [re[r[2]], le[l[2]]] } else { [re[r[1]], le[l[1]]] };
+        for (x, from, to) in [(to_left, right, left), (to_right, left, right)] {
+            let faces = &mut s.edge_faces[x as usize];
+            faces[usize::from(faces[0] != from)] = to;
+        }
+        s.edges[edge.index()] = [new_left[0], new_left[1]];
+        if let Some(joined) = &mut self.joined[surface.index()] {
+            joined.remove(a, b);
+            joined.insert(c, d);
+        }
+    }
+}
+
+fn turns(s: &Surface, edge: EdgeId, c: u32, d: u32) -> bool {
+    let p = s.positions();
+    let [a, b] = s.edges()[edge.index()];
+    let [a, b, c, d] = [a, b, c, d].map(|v| p[v as usize]);
+    let normal = |p: glam::DVec3, q: glam::DVec3, r: glam::DVec3| (q - p).cross(r - p);
+    let old = [normal(a, b, c), normal(b, a, d)];
+    let new = [normal(d, c, a), normal(c, d, b)];
+    new.iter().any(|n| old.iter().any(|o| n.dot(*o) <= 0.0))
+}
