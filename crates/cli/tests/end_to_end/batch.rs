@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use crate::call::{Folder, Outcome, has_keys, list, toile, word};
-use crate::fixtures::{ball, dress, form};
+use crate::fixtures::{ball, dress, form, read};
 
 /// Runs a batch with small outputs.
 fn batch(bodies: &Path, out: &Path, more: &[&str]) -> Outcome {
@@ -47,7 +47,7 @@ fn failures_do_not_stop_the_others_and_runs_resume() {
         assert_eq!(body["error"].is_string(), body["state"] == "failed", "{body}");
     }
     assert_eq!(list(&out), ["batch.json", "good/"]);
-    let built = std::fs::read(out.join("good/garment.obj")).unwrap();
+    let built = read(&out.join("good/garment.obj"));
     assert_eq!(list(&out.join("good")), ["garment.obj", "report.json"]);
 
     // Again: what is done is kept, byte by byte; what failed is tried again.
@@ -56,10 +56,7 @@ fn failures_do_not_stop_the_others_and_runs_resume() {
     let report = batch(&bodies, &out, &[]).refused(1, "1 of 3").json();
     assert_eq!(states(&report), pairs(&[("ball", "built"), ("cut", "failed"), ("good", "kept")]));
     assert_eq!(std::fs::metadata(out.join("good/garment.obj")).unwrap().modified().unwrap(), when);
-    assert!(
-        std::fs::read(out.join("ball/garment.obj")).unwrap() == built,
-        "the same body gives the same garment"
-    );
+    assert!(read(&out.join("ball/garment.obj")) == built, "the same body gives the same garment");
 
     // A changed input or setting is built anew, and so is everything when asked for.
     std::fs::remove_file(bodies.join("cut.obj")).unwrap();

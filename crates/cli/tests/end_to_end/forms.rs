@@ -53,7 +53,7 @@ pub(crate) fn features_are_complete(features: &Value, limbs: bool) {
     }
     for name in CURVES.into_iter().filter(|name| limbs || !armless(name)) {
         let curve = &features["curves"][name];
-        has_keys(curve, &["closed", "length", "girth", "polyline"]);
+        has_keys(curve, &["closed", "length", "polyline"]);
         let polyline = curve["polyline"].as_array().unwrap();
         assert!(polyline.len() >= 2, "curve {name}");
         assert!(
@@ -62,6 +62,7 @@ pub(crate) fn features_are_complete(features: &Value, limbs: bool) {
                 .all(|p| p.as_array().is_some_and(|p| p.len() == 3 && p.iter().all(Value::is_number)))
         );
         if curve["closed"] == true {
+            has_keys(curve, &["girth"]);
             let (length, girth) = (number(&curve["length"]), number(&curve["girth"]));
             assert!(
                 girth > 0.0 && girth <= length * 1.001 + 0.1,
@@ -128,7 +129,7 @@ fn impossible_measurements_are_refused_with_the_reason() {
     let path = folder.join("form.obj");
     let cases: [(&[&str], &str); 8] = [
         (&["--bust", "150", "--waist", "20"], "waist"),
-        (&["--bust", "-5"], "bust"),
+        (&["--bust=-5"], "bust"),
         (&["--bust", "0"], "bust"),
         (&["--bust", "nan"], "bust"),
         (&["--bust", "100000"], "bust"),
