@@ -210,7 +210,7 @@ impl<'a> Drape<'a> {
                     for v in self.faces[face as usize] {
                         let list = [v, self.refined.twins[v as usize]];
                         for w in list.into_iter().filter(|w| *w != NONE) {
-                            extra[w as usize] = (round + 1) as f64 * CROSSING_STEP;
+                            extra[w as usize] += CROSSING_STEP;
                         }
                     }
                 }
