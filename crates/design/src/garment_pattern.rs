@@ -47,8 +47,8 @@ pub(crate) fn pattern_input(garment: &Garment) -> PatternInput {
         seams: seams.collect(),
         marks: notches(garment),
         lines: inner_lines(garment),
-        // Slits of the template are joints of a surface with itself already.
-        cuts: Vec::new(),
+        // Slits of the template are joints of a surface with itself already, so nothing is cut.
+        ..PatternInput::default()
     }
 }
 

@@ -3,16 +3,19 @@
 use mesh_kernel::TriMesh;
 use mesh_kernel::glam::DVec3;
 use viewer::{
-    Camera, Color, Image, KeySign, LegendKey, Lens, RenderError, RenderOptions, Scene, SceneLine, SceneMesh,
-    View, render,
+    Camera, Color, Hidden, Image, KeySign, LegendKey, Lens, RenderError, RenderOptions, Scene, SceneLine,
+    SceneMesh, ScenePoint, View, render,
 };
 
 use super::legend;
 
 /// Width and height of the pictures, in pixels.
-const SIZE: (u32, u32) = (900, 1200);
+const SIZE: (u32, u32) = (768, 1024);
 /// Lines are lifted off the cloth by this much, in millimetres, so that they do not drown in it.
 const LIFT: f64 = 0.8;
+
+/// Air about the garment, as a part of its largest side.
+const AIR: f64 = 0.09;
 
 /// Front and back.
 #[derive(Clone, Debug)]
@@ -49,12 +52,23 @@ pub fn garment_pictures(
     let key = |text: &str, color| LegendKey { text: text.to_owned(), color, sign: KeySign::Line };
     scene.legend = legend(None, vec![key("seam", seam_color), key("profile", line_color)]);
     let options = RenderOptions::sized(SIZE.0, SIZE.1);
+    let framed = Scene { points: frame(garment), legend: scene.legend.clone(), ..Scene::default() };
     let look = |view| -> Result<Image, RenderError> {
-        let camera = Camera::new(view, Lens::PORTRAIT).fit(&scene, &options)?;
+        let camera = Camera::new(view, Lens::PORTRAIT).fit(&framed, &options)?;
         render(&scene, &camera, &options)
     };
     let (front, back) = rayon::join(|| look(View::Front), || look(View::Back));
     Ok(GarmentPictures { front: front?, back: back? })
+}
+
+/// What the picture must hold: the garment and some air about it; of the body only what is near.
+fn frame(garment: &TriMesh) -> Vec<ScenePoint> {
+    let Some([low, high]) = garment.bounds() else { return Vec::new() };
+    let air = DVec3::splat(AIR * (high - low).max_element());
+    let ends = [low - air, high + air];
+    let corner = |i: usize| DVec3::new(ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2].z);
+    let point = |i| ScenePoint { position: corner(i), color: Color::INK, diameter: 1.0, hidden: Hidden::Omitted };
+    (0..8).map(point).collect()
 }
 
 /// The line, a little outward from the body's axis.
