@@ -3,6 +3,18 @@
 //! Coordinates come in exactly as the file holds them, whatever its unit; polygons are cut into triangles as fans.
 //! Every reader checks what it reads: a damaged file is a [`ReadError`] with the place, never a panic, and no memory is
 //! reserved on the word of a header. Writers make the whole file in memory; [`write_atomically`] puts it in place.
+//!
+//! ```
+//! use mesh_kernel::files::{Format, WriteOptions, parse, to_bytes};
+//!
+//! let mesh = parse(Format::Obj, b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")?;
+//! let bytes = to_bytes(Format::Ply, &mesh, &WriteOptions::default());
+//! assert_eq!(parse(Format::Ply, &bytes)?, mesh);
+//!
+//! let error = parse(Format::Obj, b"v 0 0 0\nf 1 2 3\n").unwrap_err();
+//! assert_eq!(error.to_string(), "line 2: vertex 3 does not exist, the file has 1 (indices count from 1)");
+//! # Ok::<(), mesh_kernel::files::ReadError>(())
+//! ```
 
 mod error;
 mod glb;

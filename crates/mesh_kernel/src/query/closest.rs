@@ -95,22 +95,19 @@ impl ClosestPoint {
                         if near == 0 {
                             break;
                         }
-                        // The nearest child is next; the others wait, the nearest of them on top.
-                        let first = height;
+                        // The nearest child is next; the others wait.
                         let bounds = bounds.to_array();
+                        let mut nearest = near.trailing_zeros() as usize;
+                        near &= near - 1;
                         while near != 0 {
                             let k = near.trailing_zeros() as usize;
                             near &= near - 1;
-                            let mut slot = height;
-                            while slot > first && stack[slot - 1].0 < bounds[k] {
-                                stack[slot] = stack[slot - 1];
-                                slot -= 1;
-                            }
-                            stack[slot] = (bounds[k], node.children[k]);
+                            let farther = if bounds[k] < bounds[nearest] { nearest } else { k };
+                            nearest = if farther == k { nearest } else { k };
+                            stack[height] = (bounds[farther], node.children[farther]);
                             height += 1;
                         }
-                        height -= 1;
-                        child = stack[height].1;
+                        child = node.children[nearest];
                     }
                     Ok(leaf) => {
                         search.leaf(&self.packs[leaf.start / LEAF], at, leaf, &self.triangles);

@@ -14,7 +14,7 @@ use glam::DVec3;
 
 use super::strip::{Bend, Strip};
 use super::welded::welded;
-use super::{Adjacency, ClosestPoint};
+use super::{Adjacency, Closest, ClosestPoint};
 use crate::TriMesh;
 
 /// A path on the surface of a mesh.
@@ -85,10 +85,11 @@ impl Geodesics {
             faces: vec![face],
             length: source.distance(target),
         };
-        if start.face == end.face {
-            return Some(straight(start.face));
+        let (first_faces, last_faces) = (self.faces_about(&start), self.faces_about(&end));
+        if let Some(common) = first_faces.iter().find(|face| last_faces.contains(face)) {
+            return Some(straight(*common));
         }
-        let mut strip = self.search(start.face, source, end.face, target)?;
+        let mut strip = self.search(&first_faces, source, &last_faces, target)?;
         let mut taut = strip.taut(&self.mesh.positions, &self.mesh.faces, source, target);
         // Every round shortens the path; the limit only guards against rounding.
         for _ in 0..10 * strip.faces.len() + 100 {
@@ -98,7 +99,7 @@ impl Geodesics {
             }
             moved.simplify();
             if moved.portals.is_empty() {
-                return Some(straight(start.face));
+                return Some(straight(moved.faces[0]));
             }
             let shorter = moved.taut(&self.mesh.positions, &self.mesh.faces, source, target);
             if shorter.length >= taut.length {
@@ -122,26 +123,57 @@ impl Geodesics {
             }
         }
         if path.faces.is_empty() {
-            return Some(straight(start.face));
+            return Some(straight(strip.faces[0]));
         }
         Some(path)
     }
 
-    /// A strip of faces from one face to another: A* over points on the edges.
-    fn search(&self, from: u32, source: DVec3, to: u32, target: DVec3) -> Option<Strip> {
+    /// The faces that hold a point: several where it lies on an edge or a node.
+    fn faces_about(&self, point: &Closest) -> Vec<u32> {
+        let mut faces = vec![point.face];
+        let between: Vec<usize> = (0..3).filter(|k| point.barycentric[*k] != 0.0).collect();
+        let nodes: Vec<u32> = between.iter().map(|k| self.mesh.faces[point.face as usize][*k]).collect();
+        if nodes.len() == 3 {
+            return faces;
+        }
+        // Across all edges that hold the point.
+        let mut done = 0;
+        while done < faces.len() {
+            let face = faces[done];
+            done += 1;
+            for edge in (0..3).filter_map(|k| self.adjacency.edge_of(3 * face + k)) {
+                if nodes.iter().all(|node| self.adjacency.edges()[edge as usize].contains(node)) {
+                    for other in self.adjacency.half_edges(edge).iter().map(|h| h / 3) {
+                        if !faces.contains(&other) {
+                            faces.push(other);
+                        }
+                    }
+                }
+            }
+        }
+        faces
+    }
+
+    /// A strip of faces from one of `from` to one of `to`: A* over points on the edges.
+    fn search(&self, from: &[u32], source: DVec3, to: &[u32], target: DVec3) -> Option<Strip> {
         // Distance so far, the step before, the face between the two.
         let mut known = vec![(f64::INFINITY, NONE, NONE); self.steps.len()];
         let mut heap = BinaryHeap::new();
-        let mut goal = (f64::INFINITY, NONE);
+        // Length, last step and last face.
+        let mut goal = (f64::INFINITY, NONE, NONE);
         let at = |step: u32| self.steps[step as usize];
         // Distances are not negative: their bits are in the same order.
         let priority = |cost: f64, step: u32| Reverse(((cost + at(step).distance(target)).to_bits(), step));
         let sides = |face: u32| (0..3).filter_map(move |k| self.adjacency.edge_of(3 * face + k));
         let steps = |edge: u32| self.step_starts[edge as usize]..self.step_starts[edge as usize + 1];
-        for step in sides(from).flat_map(steps) {
+        for (face, step) in
+            from.iter().flat_map(|face| sides(*face).flat_map(steps).map(move |step| (*face, step)))
+        {
             let cost = source.distance(at(step));
-            known[step as usize] = (cost, NONE, from);
-            heap.push(priority(cost, step));
+            if cost < known[step as usize].0 {
+                known[step as usize] = (cost, NONE, face);
+                heap.push(priority(cost, step));
+            }
         }
         while let Some(Reverse((bits, step))) = heap.pop() {
             if f64::from_bits(bits) >= goal.0 {
@@ -153,10 +185,10 @@ impl Geodesics {
             }
             let edge = self.edge_of_step[step as usize];
             for face in self.adjacency.half_edges(edge).iter().map(|h| h / 3).filter(|face| *face != via) {
-                if face == to {
+                if to.contains(&face) {
                     let whole = cost + at(step).distance(target);
                     if whole < goal.0 {
-                        goal = (whole, step);
+                        goal = (whole, step, face);
                     }
                     continue;
                 }
@@ -169,7 +201,7 @@ impl Geodesics {
                 }
             }
         }
-        let mut strip = Strip { faces: vec![to], portals: Vec::new() };
+        let mut strip = Strip { faces: vec![goal.2], portals: Vec::new() };
         let mut step = goal.1;
         while step != NONE {
             let (_, before, via) = known[step as usize];

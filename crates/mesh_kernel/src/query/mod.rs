@@ -6,6 +6,25 @@
 //! * [`SignedDistance`]: the same with a side, right on meshes with holes; [`WindingNumber`];
 //! * [`Crossings`]: faces that cross faces;
 //! * [`SectionStack`], [`plane_section`]: cuts with planes; [`tape_length`]: what a tape measure reads on one.
+//!
+//! Each query is a struct that is prepared once for a mesh and then asked from any number of threads; answers do not
+//! depend on their number. Meshes may be open, non-manifold or inconsistently oriented.
+//!
+//! ```
+//! use mesh_kernel::TriMesh;
+//! use mesh_kernel::glam::DVec3;
+//! use mesh_kernel::query::{SectionStack, SignedDistance, tape_length};
+//!
+//! // A tetrahedron, faces outward.
+//! let positions = vec![DVec3::ZERO, DVec3::X * 10.0, DVec3::Y * 10.0, DVec3::Z * 10.0];
+//! let mesh = TriMesh::new(positions, vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]);
+//! let query = SignedDistance::new(&mesh);
+//! assert_eq!(query.signed(DVec3::new(1.0, 2.0, 3.0)).distance, -1.0);
+//!
+//! let loops = SectionStack::new(&mesh, DVec3::Y).cut(5.0);
+//! let girth = tape_length(&loops[0].points, DVec3::Y);
+//! assert!((girth - (10.0 + 50f64.sqrt())).abs() < 1e-12);
+//! ```
 
 mod adjacency;
 mod bvh;

@@ -200,9 +200,11 @@ impl SignedDistance {
         if caps.closest.closest_within(p, distance * (1.0 + 1e-9)).is_some() {
             return None;
         }
-        let number = caps.winding.winding(p, 1e-3);
-        let margin = beside - number.value - 0.5;
-        (margin.abs() > number.error + 1e-9).then_some(margin > 0.0)
+        [2e-2, 1e-3].into_iter().find_map(|tolerance| {
+            let number = caps.winding.winding(p, tolerance);
+            let margin = beside - number.value - 0.5;
+            (margin.abs() > number.error + 1e-9).then_some(margin > 0.0)
+        })
     }
 
     /// The normal at a point of a face, and whether its sign tells the side.
