@@ -43,6 +43,7 @@ mod homology;
 mod ids;
 mod incomplete;
 mod joint;
+mod mesh_joints;
 mod radial;
 mod radial_order;
 mod regions;
