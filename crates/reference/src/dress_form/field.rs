@@ -134,7 +134,13 @@ impl Field {
         let (front, back) = hills(m, &levels);
 
         // Neck: leans forward; the fillet at its foot makes the neck base.
-        let neck_radius = 0.84 * m.neck * 10.0 / std::f64::consts::TAU;
+        // The share is measured: neck base tape over the tape round the neck itself.
+        let share = match m.figure {
+            Figure::Woman => 0.91,
+            Figure::Man => 0.845,
+            Figure::Child => 0.93,
+        };
+        let neck_radius = share * m.neck * 10.0 / std::f64::consts::TAU;
         let lean = 0.27_f64;
         let neck_axis = DVec3::new(0.0, lean.cos(), lean.sin());
         let neck_foot = 0.5 * (levels.nape + levels.front_neck);

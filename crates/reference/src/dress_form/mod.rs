@@ -1,4 +1,19 @@
 //! Dress forms from tape measurements.
+//!
+//! 1. [`Measurements::resolve`] checks what is given against the ratios that people have and derives the rest.
+//! 2. The form is the zero set of a smooth function (module `field`): superellipse sections of trunk and legs with girths that
+//!    are monotone splines of height, joined smoothly with breasts, shoulders, neck and arm stumps.
+//! 3. Its left half is polygonised, cut flat at the plates and remeshed to even triangles.
+//! 4. The sections are scaled until a tape reads what was asked, and reads less (more) beside the fullest (narrowest)
+//!    level, so that whoever searches for bust, waist and hip finds them; then the half is mirrored.
+//!
+//! ```
+//! use reference::dress_form::{DressForm, FormOptions, Preset};
+//! let preset = Preset::find("eu-38").ok_or("no such preset")?;
+//! let form = DressForm::build(&preset.measurements, &FormOptions::default())?;
+//! assert_eq!(form.levels.stature, 1680.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod clip;
 mod curve;
@@ -71,7 +86,8 @@ pub struct DressForm {
 }
 
 impl DressForm {
-    /// Builds the form.
+    /// Builds the form: bust, waist and hip within 0.2 mm of what was asked at their levels. About 0.2 s for the default
+    /// size; the time is linear in the number of triangles. The same input gives the same mesh on any number of threads.
     ///
     /// # Errors
     /// [`FormError`] when the measurements are not of a person, or the wanted size of the mesh is out of range.

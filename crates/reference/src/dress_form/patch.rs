@@ -26,7 +26,7 @@ pub(super) fn next(e: u32) -> u32 {
 }
 
 pub(super) fn previous(e: u32) -> u32 {
-    if e % 3 == 0 { e + 2 } else { e - 1 }
+    if e.is_multiple_of(3) { e + 2 } else { e - 1 }
 }
 
 impl Patch {

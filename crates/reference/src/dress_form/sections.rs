@@ -272,7 +272,7 @@ impl Sections {
         // Where the waist is no narrower than the ribs, the natural waist is the crease below the lowest roll.
         if m.waist > 0.985 * m.underbust && m.waist < CREASE * m.underbust && m.waist < m.high_hip {
             let roll = cm * (m.waist.max(m.underbust) + 0.012 * m.waist);
-            points.push((levels.waist + 0.45 * (levels.underbust - levels.waist), roll));
+            points.push((levels.waist + 0.5 * (levels.underbust - levels.waist), roll));
         }
         Curve::through(&points)
     }
@@ -300,7 +300,7 @@ impl Sections {
 const SEAT_SHARE: f64 = 0.983;
 
 /// A waist up to this times the underbust is a crease between rolls; a larger one is a belly that goes over into the ribs.
-pub(super) const CREASE: f64 = 1.04;
+pub(super) const CREASE: f64 = 1.06;
 
 /// Both legs as one parted section.
 struct Legs {

@@ -113,7 +113,11 @@ pub(super) fn level_extremes(half: &Patch, field: &Field, m: &Resolved) -> Curve
                 let floor = match (y > levels.waist, y > ribs) {
                     (false, _) => (waist + arc(y, levels.waist)).min(hip),
                     (true, false) => (waist + arc(y, levels.waist)).min(underbust.max(waist)),
-                    (true, true) => (waist + arc(y, levels.waist)).min(underbust),
+                    (true, true) => {
+                        let t = (y - ribs) / (levels.underbust - ribs);
+                        let falling = waist + (underbust - waist).min(0.0) * t * t;
+                        (waist + arc(y, levels.waist)).min(falling.max(underbust.min(waist)))
+                    }
                 };
                 goal = goal.max(floor);
             }
