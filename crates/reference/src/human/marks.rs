@@ -460,7 +460,7 @@ fn neck_marks(
     let count = 80;
     for k in 1..count {
         let y = low + (high - low) * f64::from(k) / f64::from(count);
-        let behind = chord.perp_dot(DVec2::new(y, profile.at(&profile.front, y)) - a) * -1.0;
+        let behind = -chord.perp_dot(DVec2::new(y, profile.at(&profile.front, y)) - a);
         if behind > best.0 && y > nape_y - 0.04 * stature {
             best = (behind, y);
         }
@@ -558,10 +558,10 @@ fn navel(figure: &Figure<'_>, crotch_y: f64, armpit_y: f64, stature: f64) -> DVe
     let profile = Profile::new(figure, usual - 0.06 * stature, usual + 0.06 * stature);
     let broad = smooth(&profile.front, 0.016 * stature / figure.step);
     let mut best = (1.2, usual);
-    for i in 0..profile.y.len() {
-        let dimple = broad[i] - profile.front[i];
-        if (profile.y[i] - usual).abs() < 0.018 * stature && dimple > best.0 {
-            best = (dimple, profile.y[i]);
+    for ((y, front), broad) in profile.y.iter().zip(&profile.front).zip(broad) {
+        let dimple = broad - front;
+        if (y - usual).abs() < 0.018 * stature && dimple > best.0 {
+            best = (dimple, *y);
         }
     }
     let z = if profile.y.len() > 1 { profile.at(&profile.front, best.1) } else { 0.0 };
