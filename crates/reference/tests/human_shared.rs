@@ -1,12 +1,23 @@
 //! Features of the models and scans beside the checkout against their true measurements.
 
+#![allow(clippy::unwrap_used)]
+
 mod human_common;
 
 use std::fmt::Write as _;
+use std::sync::OnceLock;
 
 use human_common::{BODIES, features, read, shared_bodies};
 use mesh_kernel::glam::{DMat3, DVec3};
+use rayon::prelude::*;
+use reference::human::HumanBody;
 use serde_json::Value;
+
+/// All bodies with their features, found once.
+fn bodies() -> &'static [HumanBody] {
+    static FOUND: OnceLock<Vec<HumanBody>> = OnceLock::new();
+    FOUND.get_or_init(|| BODIES.par_iter().map(|name| features(&read(name).unwrap())).collect())
+}
 
 fn vector(v: &Value) -> DVec3 {
     let c = |i: usize| v[i].as_f64().unwrap();
@@ -21,8 +32,7 @@ fn features_of_known_bodies_are_where_they_were_measured() {
         serde_json::from_str(&std::fs::read_to_string(folder.join("measurements.json")).unwrap()).unwrap();
     let mut table = String::new();
     let mut faults = Vec::new();
-    for name in BODIES {
-        let body = features(&read(name).unwrap());
+    for (name, body) in BODIES.into_iter().zip(bodies()) {
         let truth = &truth["bodies"][name];
         let noisy = name.starts_with("scan-noisy");
         // The source body's coordinates in the file's frame.
@@ -90,8 +100,7 @@ fn lines_cross_every_level_once() {
     if shared_bodies().is_none() {
         return;
     }
-    for name in BODIES {
-        let body = features(&read(name).unwrap());
+    for (name, body) in BODIES.into_iter().zip(bodies()) {
         let f = &body.features;
         for curve in ["neck", "neck_base"].into_iter().chain(LEVELS).chain(LINES) {
             assert!(f.curves.contains_key(curve), "{name}: no {curve}");
@@ -118,6 +127,9 @@ fn lines_cross_every_level_once() {
                 .windows(3)
                 .map(|w| (w[1] - w[0]).angle_between(w[2] - w[1]).to_degrees())
                 .fold(0.0, f64::max);
+            // No line leaves the trunk along an arm.
+            let widest = points.iter().map(|p| p.x.abs()).fold(0.0, f64::max);
+            assert!(widest < 0.16 * f.height, "{name}: {line} strays {widest:.0} mm aside");
             assert!(bend < 40.0, "{name}: {line} has a corner of {bend:.0} degrees");
             assert!(points[points.len() - 1].y < 0.25 * f.height, "{name}: {line} ends above the knee");
             for level in LEVELS {
@@ -151,8 +163,8 @@ fn left_and_right_frames_are_mirror_images() {
     }
     let mirror = |v: DVec3| DVec3::new(-v.x, v.y, v.z);
     let mut worst = (0.0, String::new());
-    for name in BODIES.iter().filter(|n| !n.starts_with("scan")) {
-        let f = features(&read(name).unwrap()).features;
+    for (name, body) in BODIES.iter().zip(bodies()).filter(|b| !b.0.starts_with("scan")) {
+        let f = &body.features;
         for line in ["side", "princess_front", "princess_back"] {
             for level in LEVELS {
                 for curve in [level.to_owned(), format!("{level}_tape")] {

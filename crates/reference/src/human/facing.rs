@@ -4,27 +4,30 @@
 use mesh_kernel::glam::DVec2;
 
 use super::figure::{Figure, Level};
+use super::marks::Proportions;
 use super::ring::depth_at;
 
 /// Positive if the body faces +z; near zero if nothing tells.
-///
-/// `h` is the stature of the person, also if the head is missing.
-pub(crate) fn votes(figure: &Figure<'_>, h: f64) -> f64 {
+pub(crate) fn votes(figure: &Figure<'_>, proportions: &Proportions) -> f64 {
+    let h = proportions.stature();
+    let levels = |from: f64, to: f64| figure.between(proportions.height(from), proportions.height(to));
     let vote = |evidence: Option<f64>, clear: f64, weight: f64| {
         evidence.map_or(0.0, |e| (e / (clear * h)).clamp(-1.0, 1.0) * weight)
     };
     let depths = |from: f64, to: f64| {
-        let spans: Vec<[f64; 2]> = figure.between(from * h, to * h).iter().filter_map(midline).collect();
+        let spans: Vec<[f64; 2]> = levels(from, to).iter().filter_map(midline).collect();
         let n = spans.len() as f64;
         (n > 0.0).then(|| {
             [spans.iter().map(|s| s[0]).sum::<f64>() / n, spans.iter().map(|s| s[1]).sum::<f64>() / n]
         })
     };
-    let toes = centre(figure.between(0.0, 0.02 * h)).zip(centre(figure.between(0.06 * h, 0.10 * h)));
+    let toes = centre(figure.between(0.0, 0.02 * h)).zip(centre(levels(0.06, 0.10)));
     let mut sum = vote(toes.map(|(f, a)| f.y - a.y), 0.012, 4.0);
-    // The chin overhangs the throat by more than the back of the head overhangs the nape.
-    let (face, neck) = (depths(0.88, 0.93), depths(0.845, 0.865));
-    sum += vote(face.zip(neck).map(|(f, n)| (f[1] - n[1]) - (n[0] - f[0])), 0.02, 1.0);
+    if h < 1.01 * figure.height {
+        // The chin overhangs the throat by more than the back of the head overhangs the nape.
+        let (face, neck) = (depths(0.88, 0.93), depths(0.845, 0.865));
+        sum += vote(face.zip(neck).map(|(f, n)| (f[1] - n[1]) - (n[0] - f[0])), 0.02, 1.0);
+    }
     // The chest slopes forward below the neck; the back falls nearly straight.
     let chest = depths(0.70, 0.75);
     let base = depths(0.82, 0.845);
@@ -32,8 +35,8 @@ pub(crate) fn votes(figure: &Figure<'_>, h: f64) -> f64 {
     // Seat behind, cleft behind, hollow between the breasts in front.
     let (seat, loin) = (depths(0.49, 0.53), depths(0.60, 0.64));
     sum += vote(seat.zip(loin).map(|(s, l)| (l[0] - s[0]) - (s[1] - l[1])), 0.02, 1.0);
-    sum += vote(hollow(figure.between(0.49 * h, 0.54 * h)), 0.008, 1.5).clamp(-1.5, 1.5);
-    sum -= vote(hollow(figure.between(0.69 * h, 0.74 * h)), 0.012, 1.5);
+    sum += vote(hollow(levels(0.49, 0.54)), 0.008, 1.5);
+    sum -= vote(hollow(levels(0.69, 0.74)), 0.012, 1.5);
     sum
 }
 

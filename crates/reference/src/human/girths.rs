@@ -4,7 +4,7 @@ use mesh_kernel::glam::{DVec2, DVec3};
 use mesh_kernel::query::plane_section;
 use rayon::prelude::*;
 
-use super::figure::{Figure, Level, Side, ramp};
+use super::figure::{Figure, Level, Side, ramp, smooth};
 use super::marks::Marks;
 use super::normals::NormalField;
 use super::ring::{Gaps, Ring, depth_at, outer_rings, perimeter};
@@ -12,6 +12,8 @@ use crate::model::{FeatureCurve, Features};
 
 /// Spacing of the points of closed curves, millimetres.
 const SPACING: f64 = 6.0;
+/// Girth that the waist gives up to lie nearer to its usual height, as a part of the distance.
+const WAIST_PULL: f64 = 0.025;
 /// How far the plane of the neck girth leans forward, degrees.
 const NECK_TILT: f64 = 24.0;
 
@@ -90,25 +92,30 @@ fn trunk_levels(figure: &Figure<'_>, marks: &Marks) -> Result<TrunkLevels, Strin
     let navel = crotch_y + 0.483 * (armpit_y - crotch_y);
     let hip = fullest(crotch_y, navel).ok_or_else(|| missing("hip"))?;
     let ceiling = underbust.min(armpit_y - 0.068 * s);
-    let waist = waist(&tapes, hip, ceiling, s).ok_or_else(|| missing("waist"))?;
+    let waist = waist(&tapes, hip, ceiling, crotch_y + 0.58 * (armpit_y - crotch_y), s)
+        .ok_or_else(|| missing("waist"))?;
     let bust = fullest(underbust, chest).ok_or_else(|| missing("bust"))?;
     let high_hip = hip + 0.5 * (waist - hip);
     Ok(TrunkLevels { chest, bust, underbust, waist, high_hip, hip })
 }
 
-/// The narrowest height between hip and underbust. On a trunk that narrows all the way up to the chest, the height
-/// where it has narrowed most compared with an even taper; between the two cases the answer passes smoothly.
-fn waist(tapes: &[(f64, f64)], hip: f64, ceiling: f64, stature: f64) -> Option<f64> {
+/// The narrowest height between hip and underbust. On a trunk that tapers all the way up to the chest, its own shallow
+/// narrows if it has any, else `usual`; between the two cases the answer passes smoothly.
+fn waist(tapes: &[(f64, f64)], hip: f64, ceiling: f64, usual: f64, stature: f64) -> Option<f64> {
     let range: Vec<(f64, f64)> = tapes.iter().copied().filter(|t| t.0 > hip && t.0 <= ceiling).collect();
-    let narrowest = range.iter().min_by(|a, b| a.1.total_cmp(&b.1))?.0;
+    // On a trunk of nearly even girth the usual height decides.
+    let cost = |t: &(f64, f64)| t.1 + WAIST_PULL * (t.0 - usual).abs();
+    let narrowest = range.iter().min_by(|a, b| cost(a).total_cmp(&cost(b)))?.0;
     let own = ramp(0.001 * stature, 0.006 * stature, ceiling - narrowest);
-    if own >= 1.0 {
+    if own >= 1.0 || range.len() < 8 {
         return Some(narrowest);
     }
-    let (low, high) = (range[0], range[range.len() - 1]);
-    let even = |y: f64| low.1 + (high.1 - low.1) * (y - low.0) / (high.0 - low.0).max(1e-9);
-    let bent = range.iter().min_by(|a, b| (a.1 - even(a.0)).total_cmp(&(b.1 - even(b.0))))?.0;
-    Some(bent + own * (narrowest - bent))
+    let even = smooth(&range.iter().map(|t| t.1).collect::<Vec<_>>(), 1.5);
+    let narrows = (1..even.len() - 1)
+        .filter(|&i| even[i] <= even[i - 1] && even[i] < even[i + 1] && ceiling - range[i].0 > 0.02 * stature)
+        .min_by(|a, b| even[*a].total_cmp(&even[*b]))
+        .map_or(usual.clamp(hip, ceiling), |i| range[i].0);
+    Some(narrows + own * (narrowest - narrows))
 }
 
 /// Below the breasts: the deepest fold of the front contour through the bust points.

@@ -7,6 +7,9 @@ use super::figure::{Figure, Level, Side, ramp, smooth};
 use super::plates::arm_plate;
 use super::ring::{Ring, breadth_at, depth_at};
 
+/// How far a trunk may lean and still count as upright, radians (people that stand: below 0.2).
+const STEEPEST_LEAN: f64 = 0.35;
+
 /// Landmarks in the canonical frame. Pairs are left, right.
 #[derive(Clone, Debug)]
 pub(crate) struct Marks {
@@ -78,6 +81,10 @@ pub(crate) fn find(figure: &Figure<'_>, warnings: &mut Vec<String>) -> Result<Ma
             armpit_y / stature * 100.0
         ));
     }
+    let lean = lean(figure, crotch_level + 0.1 * stature, armpit_y - 0.02 * stature);
+    if lean > STEEPEST_LEAN {
+        return Err(format!("it leans by {:.0} degrees; turn it upright", lean.to_degrees()));
+    }
     let profile = Profile::new(figure, armpit_y - 0.12 * stature, (armpit_y + 0.19 * stature).min(0.995 * h));
     let NeckMarks { nape, front: front_neck, plate: neck_plate } =
         neck_marks(&profile, armpit_y, stature, head, warnings)?;
@@ -120,8 +127,50 @@ pub(crate) fn find(figure: &Figure<'_>, warnings: &mut Vec<String>) -> Result<Ma
 }
 
 /// The stature, also of a form without a head: forms end at the neck, at 0.87 of the stature.
-pub(crate) fn stature_guess(figure: &Figure<'_>) -> f64 {
+fn stature_guess(figure: &Figure<'_>) -> f64 {
     if has_head(figure) { figure.height } else { figure.height / 0.87 }
+}
+
+/// Heights of a body by the parts of an average adult's stature, so that children and forms compare.
+pub(crate) struct Proportions {
+    stature: f64,
+    crotch: f64,
+    armpit: f64,
+}
+
+impl Proportions {
+    /// Crotch and armpits of the average adult over the stature.
+    const CROTCH: f64 = 0.475;
+    const ARMPIT: f64 = 0.757;
+
+    pub(crate) fn of(figure: &Figure<'_>) -> Self {
+        let stature = stature_guess(figure);
+        let i = lowest_joined(figure);
+        let crotch =
+            if i > figure.index(0.3 * figure.height) { figure.levels[i].y } else { Self::CROTCH * stature };
+        let found = Side::BOTH.map(|s| armpit(figure, stature, s).or_else(|| plate(figure, stature, s)));
+        let armpits: Vec<f64> = found.iter().flatten().map(|a| a.place.y).collect();
+        let armpit = if armpits.is_empty() {
+            Self::ARMPIT * stature
+        } else {
+            armpits.iter().sum::<f64>() / armpits.len() as f64
+        };
+        Self { stature, crotch, armpit: armpit.clamp(crotch + 0.1 * stature, 0.95 * stature) }
+    }
+
+    /// The stature.
+    pub(crate) fn stature(&self) -> f64 {
+        self.stature
+    }
+
+    /// Height of the place that lies at a part of the stature on the average adult.
+    pub(crate) fn height(&self, part: f64) -> f64 {
+        let knots =
+            [(0.0, 0.0), (Self::CROTCH, self.crotch), (Self::ARMPIT, self.armpit), (1.0, self.stature)];
+        let i = knots[1..3].iter().filter(|k| part > k.0).count();
+        let t = (part - knots[i].0) / (knots[i + 1].0 - knots[i].0);
+        knots[i].1 + t * (knots[i + 1].1 - knots[i].1)
+    }
 }
 
 /// The lowest level, going down from the waist, that crosses the plane of symmetry.
@@ -301,6 +350,15 @@ fn between(trunk: &Ring, arm: &Ring, widest: f64) -> Option<DVec2> {
     Some(sum / weight)
 }
 
+/// Angle between the vertical and the line through the middles of the trunk's outlines at two heights.
+fn lean(figure: &Figure<'_>, low: f64, high: f64) -> f64 {
+    let middle = |y: f64| figure.at(y).trunk().map(|t| t.centroid);
+    match (middle(low), middle(high)) {
+        (Some(a), Some(b)) => (a.distance(b) / (high - low)).atan(),
+        _ => 0.0,
+    }
+}
+
 /// A head is broader than the neck below it.
 fn has_head(figure: &Figure<'_>) -> bool {
     let h = figure.height;
@@ -402,7 +460,7 @@ fn neck_marks(
     let count = 80;
     for k in 1..count {
         let y = low + (high - low) * f64::from(k) / f64::from(count);
-        let behind = chord.perp_dot(DVec2::new(y, profile.at(&profile.front, y)) - a) * -1.0;
+        let behind = -chord.perp_dot(DVec2::new(y, profile.at(&profile.front, y)) - a);
         if behind > best.0 && y > nape_y - 0.04 * stature {
             best = (behind, y);
         }
@@ -500,10 +558,10 @@ fn navel(figure: &Figure<'_>, crotch_y: f64, armpit_y: f64, stature: f64) -> DVe
     let profile = Profile::new(figure, usual - 0.06 * stature, usual + 0.06 * stature);
     let broad = smooth(&profile.front, 0.016 * stature / figure.step);
     let mut best = (1.2, usual);
-    for i in 0..profile.y.len() {
-        let dimple = broad[i] - profile.front[i];
-        if (profile.y[i] - usual).abs() < 0.018 * stature && dimple > best.0 {
-            best = (dimple, profile.y[i]);
+    for ((y, front), broad) in profile.y.iter().zip(&profile.front).zip(broad) {
+        let dimple = broad - front;
+        if (y - usual).abs() < 0.018 * stature && dimple > best.0 {
+            best = (dimple, *y);
         }
     }
     let z = if profile.y.len() > 1 { profile.at(&profile.front, best.1) } else { 0.0 };

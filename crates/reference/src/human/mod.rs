@@ -155,7 +155,7 @@ pub fn extract(raw: &TriMesh, options: &HumanOptions) -> Result<HumanBody, Human
     // Symmetry plane to x = 0.
     let mirror = heading::mirror_plane(&surface)
         .ok_or(HumanError::NotUpright { reason: "its surface has no area".to_owned() })?;
-    if mirror.residual > 0.012 * height {
+    if mirror.residual > WORST_SYMMETRY * height {
         return Err(HumanError::NotSymmetric { residual: mirror.residual });
     }
     let normal = mirror.normal();
@@ -164,7 +164,7 @@ pub fn extract(raw: &TriMesh, options: &HumanOptions) -> Result<HumanBody, Human
 
     let mut warnings = Vec::new();
     let mut figure = figure::Figure::new(&surface, height);
-    let mut votes = facing::votes(&figure, marks::stature_guess(&figure));
+    let mut votes = facing::votes(&figure, &marks::Proportions::of(&figure));
     if let Some(wanted) = options.facing {
         votes = placement.rotation.transpose().mul_vec3(wanted).z;
     } else if votes.abs() < 0.6 {
@@ -231,6 +231,10 @@ fn features_of(
     }
     Ok(features)
 }
+
+/// Residual of the mirror plane over the height above which the two sides do not belong to one person. Models and
+/// scans of people lie below 0.001, coarse meshes below 0.004.
+const WORST_SYMMETRY: f64 = 0.008;
 
 /// Checks the input and welds repeated nodes; drops faces without area and crumbs.
 fn sound_surface(raw: &TriMesh) -> Result<TriMesh, HumanError> {

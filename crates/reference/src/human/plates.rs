@@ -69,7 +69,11 @@ pub(crate) fn arm_plate(mesh: &TriMesh, side: Side, low: f64, high: f64, stature
         DVec3::new(mean.x, far * sign, mean.z)
     };
     let (top, bottom) = (end(1.0), end(-1.0));
-    (top.y - bottom.y > 0.035 * stature).then_some(ArmPlate { top, bottom })
+    let depth = nodes.iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max)
+        - nodes.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
+    // An armhole is about as deep as it is high; a strip of a flank is not.
+    let tall = top.y - bottom.y;
+    (tall > 0.035 * stature && depth > 0.4 * tall).then_some(ArmPlate { top, bottom })
 }
 
 /// The largest part of a patch that hangs together by nodes.

@@ -199,7 +199,7 @@ pub(crate) fn outer_rings(
 /// in its side closes on itself rather than on its neighbour.
 fn join_chains(mut open: Vec<Vec<DVec2>>) -> Vec<Vec<DVec2>> {
     // Torn meshes have crumbs without number; the longest chains carry the outline.
-    open.sort_by(|a, b| b.len().cmp(&a.len()));
+    open.sort_by_key(|chain| std::cmp::Reverse(chain.len()));
     open.truncate(MOST_CHAINS);
     let mut done = Vec::new();
     while !open.is_empty() {

@@ -66,14 +66,22 @@ pub(crate) fn add(
 fn outlines(figure: &Figure<'_>, marks: &Marks, levels: &TrunkLevels) -> Result<Vec<Outline>, String> {
     let top = marks.nape.y.max(marks.shoulder_line.iter().flatten().map(|p| p.y).fold(0.0, f64::max));
     let hip_tape = figure.at(levels.hip).envelope().map(|e| perimeter(&e)).ok_or("the hip has no outline")?;
-    let found: Vec<(f64, Option<Vec<DVec2>>, Option<Vec<DVec2>>)> = figure
+    struct Found {
+        y: f64,
+        skin: Option<Vec<DVec2>>,
+        taut: Option<Vec<DVec2>>,
+    }
+    let found: Vec<Found> = figure
         .between(0.05 * figure.height, top)
         .par_iter()
-        .map(|l| (l.y, l.trunk().map(|t| t.points.clone()), l.envelope()))
+        .map(|l| match marks.trunk(l) {
+            Some(trunk) => Found { y: l.y, taut: Some(trunk.hull()), skin: Some(trunk.points) },
+            None => Found { y: l.y, taut: l.envelope(), skin: None },
+        })
         .collect();
     let mut out: Vec<Outline> = Vec::with_capacity(found.len());
     let mut last: Option<Vec<DVec2>> = None;
-    for (y, skin, taut) in found.into_iter().rev() {
+    for Found { y, skin, taut } in found.into_iter().rev() {
         let below_hip = y < levels.hip;
         let full = taut.filter(|t| !below_hip || perimeter(t) > 0.6 * hip_tape);
         match (full, &last) {

@@ -1,5 +1,5 @@
 //! Bodies for the tests of feature extraction.
-#![allow(dead_code, unreachable_pub)]
+#![allow(dead_code, unreachable_pub, clippy::unwrap_used)]
 
 use std::path::PathBuf;
 
