@@ -52,6 +52,9 @@ fn main() {
     if std::env::var_os("KEEP").is_some() {
         options.pattern.holes = HolePolicy::Keep;
     }
+    if let Ok(weight) = std::env::var("AREA") {
+        options.pattern.area_weight = weight.parse().unwrap();
+    }
     let (start, cpu) = (std::time::Instant::now(), processor_ms());
     let pattern = flatten_mesh(&mesh, &options).unwrap();
     let (wall, cpu) = (start.elapsed().as_secs_f64() * 1e3, processor_ms() - cpu);

@@ -141,7 +141,8 @@ pub struct Mark {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MarkKind {
-    /// A cut into the allowance, single (by custom: front).
+    /// A cut into the allowance, single (by custom: front). Left out at corners, which mark themselves, and inside
+    /// the piece.
     Notch,
     /// Two notches side by side (by custom: back).
     DoubleNotch,
@@ -167,6 +168,10 @@ pub struct PatternOptions {
     pub holes: HolePolicy,
     /// Whether corresponding seam edges are forced to equal lengths.
     pub match_seams: bool,
+    /// What a change of area costs beside stretch in length, 0 or more. Woven cloth gives in shear, not in area: with 0
+    /// the pieces are as near to isometric as can be (least symmetric Dirichlet energy), with more they keep their
+    /// areas better and shear instead.
+    pub area_weight: f64,
     /// A corner of the outline is a turn of more than this, in radians.
     pub corner_angle: f64,
     /// Longest mitre, as a multiple of the wider allowance.
@@ -186,6 +191,7 @@ impl Default for PatternOptions {
         Self {
             holes: HolePolicy::Auto,
             match_seams: true,
+            area_weight: 2.0,
             corner_angle: 30f64.to_radians(),
             mitre_limit: 3.0,
             line_tolerance_mm: 0.05,

@@ -8,7 +8,7 @@ use crate::{
 };
 
 /// Settings of [`flatten_mesh`](crate::flatten_mesh).
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct FlattenMeshOptions {
     /// Paths of mesh nodes along which the mesh is cut open; consecutive nodes share an edge.
     pub cuts: Vec<Vec<u32>>,
@@ -16,6 +16,14 @@ pub struct FlattenMeshOptions {
     pub allowance_mm: f64,
     /// Everything else.
     pub pattern: crate::PatternOptions,
+}
+
+impl Default for FlattenMeshOptions {
+    /// No cuts, no allowance, least stretch: the mesh may be anything, not only cloth.
+    fn default() -> Self {
+        let pattern = crate::PatternOptions { area_weight: 0.0, ..crate::PatternOptions::default() };
+        Self { cuts: Vec::new(), allowance_mm: 0.0, pattern }
+    }
 }
 
 /// A seam side's edge in the seam's direction: patch, local node at its start, local node at its end.

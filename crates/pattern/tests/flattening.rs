@@ -39,12 +39,25 @@ fn developable_surfaces_keep_all_lengths() {
 #[test]
 fn curved_surfaces_reach_the_least_energy_known() {
     // Energies that SLIM reaches on these surfaces when run long (finer meshes: 4.0655 and 4.01218).
-    let pattern = flatten(&PatternInput { patches: vec![cap(60), saddle(60)], ..PatternInput::default() });
+    let input = PatternInput { patches: vec![cap(60), saddle(60)], ..PatternInput::default() };
+    let pattern = make(&input, &PatternOptions { area_weight: 0.0, ..PatternOptions::default() }).unwrap();
     for (piece, [low, high]) in pattern.pieces.iter().zip([[4.060, 4.0660], [4.0118, 4.0123]]) {
         let report = &piece.report;
         assert!(report.energy > low && report.energy < high, "{}: {report:?}", piece.name);
         assert_eq!((report.flipped, report.overlaps), (0, 0));
     }
+}
+
+#[test]
+fn a_weight_on_areas_keeps_areas() {
+    let input = PatternInput { patches: vec![cap(30), saddle(30)], ..PatternInput::default() };
+    let change = |area_weight: f64| {
+        let pattern = make(&input, &PatternOptions { area_weight, ..PatternOptions::default() }).unwrap();
+        assert!(pattern.pieces.iter().all(|p| p.report.flipped == 0));
+        pattern.pieces.iter().map(|p| p.report.mean_area_change).collect::<Vec<_>>()
+    };
+    let (free, weighted) = (change(0.0), change(10.0));
+    assert!(free.iter().zip(&weighted).all(|(a, b)| b < &(0.4 * a)), "{free:?} {weighted:?}");
 }
 
 #[test]
@@ -67,7 +80,7 @@ fn seam_partners_get_equal_lengths() {
     }
     for (a, b) in free.pieces.iter().zip(&sewn.pieces) {
         assert!(
-            b.report.energy < 4.0 + 4.0 * (a.report.energy - 4.0).max(1e-4),
+            b.report.energy < 4.0 + 4.0 * (a.report.energy - 4.0).max(2e-4),
             "{} {}",
             a.report.energy,
             b.report.energy
@@ -153,7 +166,7 @@ fn an_earlier_run_is_a_good_start() {
     input.start = first.flats;
     let warm = flatten(&input);
     let (a, b) = (&cold.pieces[0].report, &warm.pieces[0].report);
-    assert!(b.steps < a.steps + 1 && (a.energy - b.energy).abs() < 1e-9, "{a:?} {b:?}");
+    assert!(b.steps < a.steps + 1 && (a.energy - b.energy).abs() < 1e-6, "{a:?} {b:?}");
     // A start that does not fit is passed over.
     input.start[0].faces.pop();
     assert_eq!(flatten(&input).pieces[0].report, *a);

@@ -17,7 +17,11 @@ pub(crate) struct EdgeOf {
 }
 
 /// Merges sheets into one with a hold for every pair of partners. Every group lists edges of equal wanted length.
-pub(crate) fn merge(sheets: &[&Sheet], groups: &[Vec<EdgeOf>]) -> Result<Sheet, NotDefinite> {
+pub(crate) fn merge(
+    sheets: &[&Sheet],
+    groups: &[Vec<EdgeOf>],
+    area_weight: f64,
+) -> Result<Sheet, NotDefinite> {
     let mut first = Vec::with_capacity(sheets.len());
     let mut merged = Merged::default();
     for sheet in sheets {
@@ -77,7 +81,21 @@ pub(crate) fn merge(sheets: &[&Sheet], groups: &[Vec<EdgeOf>]) -> Result<Sheet, 
         .collect();
     let system = BlockSystem::new(&space, &edges)?;
     let (loops, compact) = (Vec::new(), Vec::new());
-    Ok(Sheet { space, faces, rest, edges, sides, loops, area, compact, flat, system, pins, holds })
+    Ok(Sheet {
+        space,
+        faces,
+        rest,
+        edges,
+        sides,
+        loops,
+        area,
+        compact,
+        flat,
+        system,
+        area_weight,
+        pins,
+        holds,
+    })
 }
 
 /// Gives the merged flat positions back to their sheets.

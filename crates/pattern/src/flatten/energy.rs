@@ -114,6 +114,48 @@ pub(crate) fn hessian(f: [f64; 4], project: bool) -> [[f64; 4]; 4] {
     h
 }
 
+/// How much an area changes: (J − 1/J)² for a determinant J, infinite for flipped triangles.
+#[inline]
+pub(crate) fn area_excess(j: f64) -> f64 {
+    if j <= 0.0 {
+        return f64::INFINITY;
+    }
+    let d = j - 1.0 / j;
+    d * d
+}
+
+/// Gradient of (J − 1/J)² in F, times `weight`, added.
+#[inline]
+pub(crate) fn add_area_gradient(f: [f64; 4], weight: f64, out: &mut [f64; 4]) {
+    let j = determinant(f);
+    let slope = weight * 2.0 * (j - 1.0 / (j * j * j));
+    let c = [f[3], -f[2], -f[1], f[0]];
+    for a in 0..4 {
+        out[a] += slope * c[a];
+    }
+}
+
+/// Hessian of (J − 1/J)² in F, times `weight`, added; with `project` only its part without negative directions.
+#[inline]
+pub(crate) fn add_area_hessian(f: [f64; 4], weight: f64, project: bool, out: &mut [[f64; 4]; 4]) {
+    let j = determinant(f);
+    let k2 = 1.0 / (j * j);
+    let bend = weight * (2.0 + 6.0 * k2 * k2);
+    let c = [f[3], -f[2], -f[1], f[0]];
+    for a in 0..4 {
+        for b in 0..4 {
+            out[a][b] += bend * c[a] * c[b];
+        }
+    }
+    if !project {
+        let slope = weight * 2.0 * (j - k2 / j);
+        out[0][3] += slope;
+        out[3][0] += slope;
+        out[1][2] -= slope;
+        out[2][1] -= slope;
+    }
+}
+
 /// Larger and smaller (signed) singular value.
 #[inline]
 pub(crate) fn singular_values(f: [f64; 4]) -> [f64; 2] {
@@ -143,6 +185,32 @@ mod tests {
             for b in 0..4 {
                 let numeric = (up[b] - down[b]) / (2.0 * step);
                 assert!((numeric - h[a][b]).abs() < 1e-6, "{a} {b}: {numeric} {}", h[a][b]);
+            }
+        }
+    }
+
+    #[test]
+    fn area_derivatives_agree_with_differences() {
+        let f = [1.1, 0.2, -0.15, 0.8];
+        let step = 1e-5;
+        let shifted = |a: usize, s: f64| {
+            let mut g = f;
+            g[a] += s;
+            g
+        };
+        let gradient = |f: [f64; 4]| {
+            let mut g = [0.0; 4];
+            add_area_gradient(f, 3.0, &mut g);
+            g
+        };
+        let mut h = [[0.0; 4]; 4];
+        add_area_hessian(f, 3.0, false, &mut h);
+        for (a, row) in h.iter().enumerate() {
+            let value = |s: f64| 3.0 * area_excess(determinant(shifted(a, s)));
+            assert!(((value(step) - value(-step)) / (2.0 * step) - gradient(f)[a]).abs() < 1e-6);
+            let (up, down) = (gradient(shifted(a, step)), gradient(shifted(a, -step)));
+            for b in 0..4 {
+                assert!(((up[b] - down[b]) / (2.0 * step) - row[b]).abs() < 1e-5);
             }
         }
     }

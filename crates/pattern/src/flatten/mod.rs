@@ -84,7 +84,7 @@ pub(crate) fn flatten(input: &PatternInput, options: &PatternOptions) -> Result<
         joined::flat_seams(input, &before, &after, &paths)
     };
     if options.match_seams {
-        fit_seams(input, &mut work, &seams, &mut warnings);
+        fit_seams(input, options, &mut work, &seams, &mut warnings);
     }
     let patches: Vec<FlatPatch> =
         work.into_par_iter().enumerate().map(|(p, w)| finish(&input.patches[p].positions, w)).collect();
@@ -141,7 +141,8 @@ fn flatten_one(
         let sewn =
             !open.cut_paths.is_empty() || input.seams.iter().flat_map(|s| &s.sides).any(|s| s.patch == p);
         let stop = if sewn && options.match_seams { Stop::ROUGH } else { Stop::default() };
-        let mut sheet = Sheet::new(&open.topology, &space).map_err(|_| unsolvable(&patch.name))?;
+        let mut sheet =
+            Sheet::new(&open.topology, &space, options.area_weight).map_err(|_| unsolvable(&patch.name))?;
         if !start_from(&mut sheet, input.start.get(p), &open) {
             initial::start(&mut sheet).map_err(|_| unsolvable(&patch.name))?;
         }
@@ -172,7 +173,13 @@ fn start_from(sheet: &mut Sheet, earlier: Option<&Flat>, open: &OpenPatch) -> bo
 
 /// Brings corresponding seam edges to equal lengths at the least total stretch: all pieces that are sewn together are
 /// solved as one, starting from their own best shapes.
-fn fit_seams(input: &PatternInput, work: &mut [Work], seams: &[FlatSeam], warnings: &mut Vec<String>) {
+fn fit_seams(
+    input: &PatternInput,
+    options: &PatternOptions,
+    work: &mut [Work],
+    seams: &[FlatSeam],
+    warnings: &mut Vec<String>,
+) {
     let groups = {
         let after: Vec<&Topology> = work.iter().map(|w| &w.open.topology).collect();
         joined::equal_length_groups(seams, &after)
@@ -210,7 +217,7 @@ fn fit_seams(input: &PatternInput, work: &mut [Work], seams: &[FlatSeam], warnin
         .par_iter()
         .map(|(members, groups)| {
             let sheets: Vec<&Sheet> = members.iter().map(|&p| &work[p].sheet).collect();
-            let mut merged = coupled::merge(&sheets, groups)?;
+            let mut merged = coupled::merge(&sheets, groups, options.area_weight)?;
             let outcome = newton::minimise(&mut merged, Stop::default())?;
             Ok((merged, outcome))
         })

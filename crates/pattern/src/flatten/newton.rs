@@ -125,7 +125,7 @@ fn update_multipliers(sheet: &mut Sheet) {
 
 /// Energy plus augmented Lagrangian.
 fn merit(sheet: &Sheet, flat: &[DVec2]) -> f64 {
-    let mut sum = sheet.excess(flat);
+    let mut sum = sheet.objective(flat);
     for (i, h) in sheet.holds.iter().enumerate() {
         let c = relative_error(sheet, flat, i);
         sum += h.length * h.length * c * (h.multiplier + 0.5 * PENALTY * c);
@@ -140,13 +140,18 @@ fn assemble(sheet: &mut Sheet, slope: &mut [[f64; 2]], project: bool) {
     for f in 0..sheet.faces.len() {
         let j = sheet.jacobian(&sheet.flat, f);
         let rest = sheet.rest[f];
-        let p = energy::gradient(j);
+        let mut p = energy::gradient(j);
+        let mut h = energy::hessian(j, project);
+        if sheet.area_weight > 0.0 {
+            energy::add_area_gradient(j, sheet.area_weight, &mut p);
+            energy::add_area_hessian(j, sheet.area_weight, project, &mut h);
+        }
         for (c, &v) in sheet.faces[f].iter().enumerate() {
             let g = rest.gradients[c];
             slope[v as usize][0] += rest.area * (p[0] * g[0] + p[1] * g[1]);
             slope[v as usize][1] += rest.area * (p[2] * g[0] + p[3] * g[1]);
         }
-        sheet.add_face(f, &energy::hessian(j, project));
+        sheet.add_face(f, &h);
     }
     for i in 0..sheet.holds.len() {
         add_hold(sheet, slope, i, project);

@@ -36,6 +36,8 @@ pub(crate) struct Sheet {
     /// Current flat positions.
     pub(crate) flat: Vec<DVec2>,
     pub(crate) system: BlockSystem,
+    /// Weight of the change of area beside the symmetric Dirichlet energy.
+    pub(crate) area_weight: f64,
     /// Two nodes far from each other for every connected part: they stop rigid motions.
     pub(crate) pins: Vec<[usize; 2]>,
     /// Pairs of edges that are held to equal lengths.
@@ -61,7 +63,7 @@ pub(crate) struct Hold {
 
 impl Sheet {
     /// Collects the rest shape of an opened patch; `positions` by its flat nodes.
-    pub(crate) fn new(open: &Topology, positions: &[DVec3]) -> Result<Self, NotDefinite> {
+    pub(crate) fn new(open: &Topology, positions: &[DVec3], area_weight: f64) -> Result<Self, NotDefinite> {
         let mut compact = vec![NONE; open.node_count];
         let mut space = Vec::with_capacity(open.node_count);
         let mut used = vec![false; open.node_count];
@@ -100,7 +102,21 @@ impl Sheet {
         let flat = vec![DVec2::ZERO; space.len()];
         let pins = vec![far_pair(&space)];
         let holds = Vec::new();
-        Ok(Self { space, faces, rest, edges, sides, loops, area, compact, flat, system, pins, holds })
+        Ok(Self {
+            space,
+            faces,
+            rest,
+            edges,
+            sides,
+            loops,
+            area,
+            compact,
+            flat,
+            system,
+            area_weight,
+            pins,
+            holds,
+        })
     }
 
     /// Flat corners of face `f`.
@@ -123,6 +139,17 @@ impl Sheet {
     /// Excess energy (0 is perfect) without holds.
     pub(crate) fn excess(&self, flat: &[DVec2]) -> f64 {
         (0..self.faces.len()).map(|f| self.rest[f].area * energy::excess(self.jacobian(flat, f))).sum()
+    }
+
+    /// What is minimised, without holds: excess energy and weighted change of area.
+    pub(crate) fn objective(&self, flat: &[DVec2]) -> f64 {
+        (0..self.faces.len())
+            .map(|f| {
+                let j = self.jacobian(flat, f);
+                let area = self.area_weight * energy::area_excess(energy::determinant(j));
+                self.rest[f].area * (energy::excess(j) + area)
+            })
+            .sum()
     }
 
     /// Adds the element matrix `G H Gᵀ` of face `f` for a Hessian in F, times its area.

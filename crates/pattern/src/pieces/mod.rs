@@ -35,6 +35,7 @@ pub(crate) fn check(input: &PatternInput, options: &PatternOptions) -> Result<()
         Err(PatternError::BadOption { what: what.to_owned(), wanted, value })
     };
     at_least("the corner angle", options.corner_angle, 1e-3)?;
+    at_least("the weight of areas", options.area_weight, 0.0)?;
     at_least("the mitre limit", options.mitre_limit, 1.0)?;
     at_least("the line tolerance", options.line_tolerance_mm, 0.0)?;
     at_least("the notch depth", options.notch_depth_mm, 0.0)?;

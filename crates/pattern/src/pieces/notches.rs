@@ -132,10 +132,7 @@ pub(crate) fn place(
             continue;
         }
         if out == NONE || into == NONE {
-            // A seam that ends inside the piece is drawn as a line; any other mark inside is a drill hole.
-            if w.seam.is_none() {
-                drills.push(Drill { name: w.name.clone(), at: uv[v] });
-            }
+            // Inside the piece there is nothing to cut into; a seam that ends there is drawn as a line.
             continue;
         }
         let p = uv[v];
