@@ -49,6 +49,7 @@ pub(crate) fn pattern_input(garment: &Garment) -> PatternInput {
         lines: inner_lines(garment),
         // Slits of the template are joints of a surface with itself already.
         cuts: Vec::new(),
+        start: Vec::new(),
     }
 }
 

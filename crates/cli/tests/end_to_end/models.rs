@@ -95,7 +95,8 @@ fn units_and_cuts_of_flatten() {
     closed.refused(1, "form");
     assert!(!folder.join("form.svg").exists());
     // Nodes that are not there cannot be cut along.
-    toile(&["flatten", word(&model), "-o", word(&folder.join("x.svg")), "--cut", "1-999999"]).refused(1, "cut");
+    toile(&["flatten", word(&model), "-o", word(&folder.join("x.svg")), "--cut", "1-999999"])
+        .refused(1, "cut");
     assert!(!folder.join("x.svg").exists());
 }
 
