@@ -32,7 +32,7 @@ pub struct Reference<'a> {
 }
 
 /// Told how far the work is, from 0 to 1, and what is done.
-pub type Progress = dyn Fn(f64, &str) + Sync;
+pub type Progress<'a> = dyn Fn(f64, &str) + Sync + 'a;
 
 /// How to regenerate.
 #[derive(Clone, Copy, Default)]
@@ -44,7 +44,7 @@ pub struct RegenerateOptions<'a> {
     /// Set it from elsewhere to stop the work.
     pub cancel: Option<&'a AtomicBool>,
     /// Told how far the work is (0 to 1) and what is done.
-    pub progress: Option<&'a Progress>,
+    pub progress: Option<&'a Progress<'a>>,
 }
 
 /// An ease within this is right, mm.
