@@ -26,7 +26,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("{} faces, {:?}", mesh.faces.len(), garment.seconds);
     println!("{:?}", garment.collision);
     for (name, got) in &garment.ease {
-        let height = human.features.curves.get(name).map_or(0.0, |c| c.points.iter().map(|p| p.y).sum::<f64>() / c.points.len() as f64);
+        let height = human
+            .features
+            .curves
+            .get(name)
+            .map_or(0.0, |c| c.points.iter().map(|p| p.y).sum::<f64>() / c.points.len() as f64);
         println!("ease {name}: {got:.1} wanted {:.1}, at height {height:.0}", garment.ease_wanted[name]);
     }
     for warning in &garment.warnings {

@@ -206,14 +206,16 @@ impl<'a> Drape<'a> {
                 if crossing.is_empty() || round + 1 == rounds {
                     break;
                 }
-                for (face, _) in crossing {
-                    for v in self.faces[face as usize] {
-                        let list = [v, self.refined.twins[v as usize]];
-                        for w in list.into_iter().filter(|w| *w != NONE) {
-                            extra[w as usize] += CROSSING_STEP;
-                        }
+                // A face that crosses many others counts once.
+                let mut near = vec![false; n];
+                for v in crossing.iter().flat_map(|(face, _)| self.faces[*face as usize]) {
+                    near[v as usize] = true;
+                    let twin = self.refined.twins[v as usize];
+                    if twin != NONE {
+                        near[twin as usize] = true;
                     }
                 }
+                (0..n).filter(|w| near[*w]).for_each(|w| extra[w] += CROSSING_STEP);
                 continue;
             }
             let push = self.field(&gaps)?;

@@ -55,7 +55,7 @@ pub(crate) fn missing_edge(layout: &Layout, patches: &[Patch]) -> Option<(String
 pub(crate) fn joints(layout: &Layout, patches: &[Patch]) -> Result<Vec<JointSpec>, TemplateError> {
     let mut out = match &layout.joints {
         Some(_) => explicit(layout, patches)?,
-        None => found(layout, patches),
+        None => found(patches),
     };
     // Names tell joints apart in seams, notches and reports.
     let mut counts: BTreeMap<String, u32> = BTreeMap::new();
@@ -77,7 +77,7 @@ struct Growing {
     locals: Vec<(u32, Vec<u32>)>,
 }
 
-fn found(layout: &Layout, patches: &[Patch]) -> Vec<JointSpec> {
+fn found(patches: &[Patch]) -> Vec<JointSpec> {
     let uses = edge_uses(patches);
     let shared: BTreeMap<[u32; 2], &Vec<EdgeUse>> =
         uses.iter().filter(|(_, u)| u.len() >= 2).map(|(k, u)| (*k, u)).collect();
@@ -107,7 +107,6 @@ fn found(layout: &Layout, patches: &[Patch]) -> Vec<JointSpec> {
         });
         out.push(JointSpec { name: None, chains: chains.collect() });
     }
-    let _ = layout;
     out
 }
 

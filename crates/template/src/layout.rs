@@ -56,8 +56,6 @@ pub(crate) struct LayoutLine {
     pub(crate) corners: Vec<u32>,
     pub(crate) continues: Option<u32>,
     pub(crate) hold: Option<bool>,
-    /// This line was made as the mirror image of that one: its shape is the mirrored shape.
-    pub(crate) made_from: Option<u32>,
 }
 
 /// An ease level.
@@ -458,7 +456,6 @@ impl Layout {
                 corners,
                 continues,
                 hold: spec.hold,
-                made_from: *made_from,
             });
         }
         for line in &out {

@@ -30,7 +30,7 @@ pub use garment::{
     Garment, GarmentLine, GarmentPiece, GarmentSurface, Mark, PieceEdge, Seam, Seconds, SurfaceChain,
 };
 pub use place::SCALE_STATURE;
-pub use regenerate::{Reference, RegenerateOptions, regenerate};
+pub use regenerate::{Progress, Reference, RegenerateOptions, regenerate};
 
 /// A template that was read, checked and written out.
 #[derive(Clone, Debug)]

@@ -60,16 +60,7 @@ pub(crate) fn missing_lines(
         for (k, (nodes, closed)) in many.into_iter().enumerate() {
             let name = if k == 0 { kind.name.clone() } else { format!("{} {}", kind.name, k + 1) };
             let corners = corners(&nodes, closed, positions);
-            out.push(LayoutLine {
-                name,
-                nodes,
-                closed,
-                shape: None,
-                corners,
-                continues: None,
-                hold: None,
-                made_from: None,
-            });
+            out.push(LayoutLine { name, nodes, closed, shape: None, corners, continues: None, hold: None });
         }
     }
     out

@@ -31,6 +31,9 @@ pub struct Reference<'a> {
     pub features: &'a Features,
 }
 
+/// Told how far the work is, from 0 to 1, and what is done.
+pub type Progress<'a> = dyn Fn(f64, &str) + Sync + 'a;
+
 /// How to regenerate.
 #[derive(Clone, Copy, Default)]
 pub struct RegenerateOptions<'a> {
@@ -41,7 +44,7 @@ pub struct RegenerateOptions<'a> {
     /// Set it from elsewhere to stop the work.
     pub cancel: Option<&'a AtomicBool>,
     /// Told how far the work is (0 to 1) and what is done.
-    pub progress: Option<&'a (dyn Fn(f64, &str) + Sync)>,
+    pub progress: Option<&'a Progress<'a>>,
 }
 
 /// An ease within this is right, mm.

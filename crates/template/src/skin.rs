@@ -31,10 +31,6 @@ impl<'m> Skin<'m> {
         Self { mesh, distance: SignedDistance::new(mesh), normals: smooth_normals(mesh) }
     }
 
-    pub(crate) fn mesh(&self) -> &TriMesh {
-        self.mesh
-    }
-
     /// What lies nearest to `p`.
     pub(crate) fn look(&self, p: DVec3) -> Sight {
         let signed = self.distance.signed(p);

@@ -98,10 +98,14 @@ impl Umbrella {
         }
         let mut u = p.clone();
         for _ in 0..steps {
-            self.pass(&p, &mut u, |mean, at, _| mean - at);
-            let mut moved = std::mem::take(&mut p);
-            self.pass_with(&u, &mut moved, |second, old, step| old + step * second);
-            p = moved;
+            for (v, u) in u.iter_mut().enumerate() {
+                let (mean, at) = (self.mean(v, &p), p[v].0);
+                u.0 = [0, 1, 2, 3].map(|c| mean[c] - at[c]);
+            }
+            for (v, p) in p.iter_mut().enumerate() {
+                let (mean, own, step) = (self.mean(v, &u), u[v].0, self.step[v]);
+                p.0 = [0, 1, 2, 3].map(|c| p.0[c] + step * (mean[c] - own[c]));
+            }
         }
         for (v, at) in positions.iter_mut().zip(&self.order) {
             let [x, y, z, _] = p[*at as usize].0;
@@ -132,27 +136,6 @@ impl Umbrella {
         sum.map(|s| s * self.share[v])
     }
 
-    #[inline(always)]
-    fn pass(&self, of: &[Lane], out: &mut [Lane], f: impl Fn(f64, f64, f64) -> f64) {
-        for (v, out) in out.iter_mut().enumerate() {
-            let mean = self.mean(v, of);
-            for c in 0..4 {
-                out.0[c] = f(mean[c], of[v].0[c], 0.0);
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn pass_with(&self, u: &[Lane], p: &mut [Lane], f: impl Fn(f64, f64, f64) -> f64) {
-        for (v, p) in p.iter_mut().enumerate() {
-            let mean = self.mean(v, u);
-            let step = self.step[v];
-            for c in 0..4 {
-                p.0[c] = f(mean[c] - u[v].0[c], p.0[c], step);
-            }
-        }
-    }
-
     /// The limit of the iteration, `U² = 0` at every free node, by one sparse LU factorisation.
     ///
     /// # Errors
@@ -177,11 +160,10 @@ impl Umbrella {
         let mut triplets = Vec::with_capacity(40 * count);
         let mut rhs = faer::Mat::<f64>::zeros(count, 3);
         let ring = |v: usize| &self.neighbours[self.starts[v] as usize..self.starts[v + 1] as usize];
-        for v in 0..n {
-            if unknown[v] == u32::MAX {
+        for (v, &row) in unknown.iter().enumerate() {
+            if row == u32::MAX {
                 continue;
             }
-            let row = unknown[v];
             let mut add = |q: usize, k: f64| {
                 if unknown[q] == u32::MAX {
                     for c in 0..3 {

@@ -79,9 +79,11 @@ fn a_cloth_through_a_ring_lies_on_both_its_sides() {
 }
 
 /// A skirt whose nodes begin 15 mm inside the trunk.
-pub fn skirt(offset: f64, ease: f64) -> Template {
+pub(crate) fn skirt(offset: f64, ease: f64) -> Template {
     let node = |name: &str, curve: &str, side: &str, extra: &str| {
-        format!(r#""{name}": {{ "at": ["{curve}", "{side}"], "normal": {offset}, "ease": "{curve}"{extra} }}"#)
+        format!(
+            r#""{name}": {{ "at": ["{curve}", "{side}"], "normal": {offset}, "ease": "{curve}"{extra} }}"#
+        )
     };
     let text = format!(
         r#"{{ "toile_template": 1, "name": "skirt", "mirrored": true, "level": 3, "clearance": 3,

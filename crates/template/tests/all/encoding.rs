@@ -52,8 +52,10 @@ fn worked_profile() {
 
 #[test]
 fn splines_pass_through_their_points_and_are_smooth() {
-    let circle: Vec<DVec3> =
-        (0..8).map(|k| DVec3::new((0.785398 * k as f64).sin(), 0.0, (0.785398 * k as f64).cos()) * 100.0).collect();
+    let circle: Vec<DVec3> = (0..8)
+        .map(|k| std::f64::consts::FRAC_PI_4 * f64::from(k))
+        .map(|a| DVec3::new(a.sin(), 0.0, a.cos()) * 100.0)
+        .collect();
     let spline = Spline::new(&circle, true);
     assert_eq!(spline.spans(), 8);
     for (k, p) in circle.iter().enumerate() {

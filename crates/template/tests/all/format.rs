@@ -24,8 +24,16 @@ fn errors_name_the_place() {
         (r#""axes": [100, 0, 0]"#, r#""axis": [100, 0, 0]"#, "nodes.b.axis"),
         (r#""a": { "at": "origin" }"#, r#""a": { "normal": 3 }"#, "nodes.a: give `at`"),
         (r#""a": { "at": "origin" }"#, r#""a": { "at": "origin", "ease": "bust" }"#, "nodes.a.ease"),
-        (r#""a": { "at": "origin" }"#, r#""a": { "at": "origin" }, "a": { "at": "origin" }"#, "nodes.a: the key `a` is given twice"),
-        (r#"["a", "b", "c"]"#, r#"["a", "b", "cc"]"#, "surfaces.flap.faces[0]: there is no node `cc`; did you mean `c`?"),
+        (
+            r#""a": { "at": "origin" }"#,
+            r#""a": { "at": "origin" }, "a": { "at": "origin" }"#,
+            "nodes.a: the key `a` is given twice",
+        ),
+        (
+            r#"["a", "b", "c"]"#,
+            r#"["a", "b", "cc"]"#,
+            "surfaces.flap.faces[0]: there is no node `cc`; did you mean `c`?",
+        ),
         (r#"["a", "b", "c"]"#, r#"["a", "b"]"#, "surfaces.flap.faces[0]"),
         (r#"["a", "b"] }"#, r#"["a"] }"#, "lines.edge.through"),
         (r#"["a", "b"] }"#, r#"["a", "b"], "shape": "wavy" }"#, "lines.edge.shape"),
@@ -43,17 +51,25 @@ fn errors_name_the_place() {
 fn errors_that_need_a_body() {
     let (mesh, features) = model::nothing();
     let reference = Reference { mesh: &mesh, features: &features };
-    let build = |text: &str| regenerate(&Template::from_json(text).unwrap(), &reference, &RegenerateOptions::default());
+    let build = |text: &str| {
+        regenerate(&Template::from_json(text).unwrap(), &reference, &RegenerateOptions::default())
+    };
     assert!(build(GOOD).is_ok());
     let unknown = build(&GOOD.replacen(r#""a": { "at": "origin" }"#, r#""a": { "at": "navel" }"#, 1));
     assert!(matches!(unknown, Err(TemplateError::UnknownFeature { ref path, .. }) if path == "nodes.a.at"));
-    let edge = build(&GOOD.replacen(
-        r#""surfaces""#,
-        r#""fair_across": [], "surfaces""#,
-        1,
-    ).replacen(r#"{ "through": ["a", "b"] }"#, r#"{ "through": ["a", "b"] }, "far": { "through": ["d", "a"] }"#, 1)
-    .replacen(r#""nodes": {"#, r#""nodes": { "d": { "at": "origin", "axes": [-50, 0, 0] },"#, 1));
-    assert!(edge.unwrap_err().to_string().contains("no surface has an edge from `d` to `a`"));
+    let edge = build(
+        &GOOD
+            .replacen(r#""surfaces""#, r#""fair_across": [], "surfaces""#, 1)
+            .replacen(
+                r#"{ "through": ["a", "b"] }"#,
+                r#"{ "through": ["a", "b"] }, "far": { "through": ["d", "a"] }"#,
+                1,
+            )
+            .replacen(r#""nodes": {"#, r#""nodes": { "d": { "at": "origin", "axes": [-50, 0, 0] },"#, 1),
+    );
+    assert!(
+        edge.unwrap_err().to_string().contains("lines.far.through: no surface has an edge from `a` to `d`")
+    );
     let three = build(&GOOD.replacen(
         r#"[["a", "b", "c"]]"#,
         r#"[["a", "b", "c"], ["b", "a", "d"], ["a", "b", "e"]]"#,
@@ -75,7 +91,11 @@ fn a_template_written_and_read_is_the_same() {
     let schema = Template::schema();
     assert!(schema["properties"]["nodes"].is_object());
     // A circle of `between`.
-    let circle = GOOD.replacen(r#""a": { "at": "origin" }"#, r#""a": { "between": ["b", "x"] }, "x": { "between": ["a", "b"] }"#, 1);
+    let circle = GOOD.replacen(
+        r#""a": { "at": "origin" }"#,
+        r#""a": { "between": ["b", "x"] }, "x": { "between": ["a", "b"] }"#,
+        1,
+    );
     let (mesh, features) = model::nothing();
     let reference = Reference { mesh: &mesh, features: &features };
     let built = regenerate(&Template::from_json(&circle).unwrap(), &reference, &RegenerateOptions::default());

@@ -38,7 +38,9 @@ fn wing(name: &str, k: u32) -> String {
 }
 
 fn pair(name: &str, k: u32, l: u32) -> String {
-    format!(r#""{name}": {{ "rows": [["a{k}", "a", "a{l}"], ["b{k}", "b", "b{l}"], ["c{k}", "c", "c{l}"]] }}"#)
+    format!(
+        r#""{name}": {{ "rows": [["a{k}", "a", "a{l}"], ["b{k}", "b", "b{l}"], ["c{k}", "c", "c{l}"]] }}"#
+    )
 }
 
 /// Where the middle of wing `k`'s upper cell came to lie: the garment's node nearest to the flat middle.
@@ -89,7 +91,11 @@ fn a_tube_opened_along_a_line_is_sewn_to_itself() {
     let ring = |row: &str, y: f64, out: &mut Vec<String>| {
         for k in 0..6 {
             let (s, c) = (TAU * f64::from(k) / 6.0).sin_cos();
-            out.push(format!(r#""{row}{k}": {{ "at": "origin", "axes": [{}, {y}, {}] }}"#, 50.0 * s, 50.0 * c));
+            out.push(format!(
+                r#""{row}{k}": {{ "at": "origin", "axes": [{}, {y}, {}] }}"#,
+                50.0 * s,
+                50.0 * c
+            ));
         }
     };
     let mut nodes = Vec::new();

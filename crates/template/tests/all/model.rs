@@ -45,7 +45,7 @@ fn curve(closed: bool, count: usize, at: &dyn Fn(f64) -> (DVec3, DVec3)) -> Feat
 
 /// A trunk: an upright ellipsoid with half axes 170 (left), 850 (up), 120 (front) mm on the floor, with `waist`,
 /// `hip` (closed, anticlockwise from above) and the vertical curves `centre_front`, `centre_back`, `left_side`, `right_side`.
-pub fn trunk() -> (TriMesh, Features) {
+pub(crate) fn trunk() -> (TriMesh, Features) {
     let (a, b, c) = (170.0, 850.0, 120.0);
     let place = |angle: f64, height: f64| {
         let r = (1.0 - ((height - b) / b).powi(2)).max(0.0).sqrt();
@@ -59,7 +59,8 @@ pub fn trunk() -> (TriMesh, Features) {
     for (name, height) in [("waist", 1050.0), ("hip", 850.0)] {
         features.curves.insert(name.into(), curve(true, 180, &|t| both(place(TAU * t, height))));
     }
-    for (name, angle) in [("centre_front", 0.0), ("left_side", 0.5 * PI), ("centre_back", PI), ("right_side", 1.5 * PI)]
+    for (name, angle) in
+        [("centre_front", 0.0), ("left_side", 0.5 * PI), ("centre_back", PI), ("right_side", 1.5 * PI)]
     {
         let line = curve(false, 200, &|t| both(place(angle, 1600.0 - 1500.0 * t)));
         features.curves.insert(name.into(), line);
@@ -70,7 +71,7 @@ pub fn trunk() -> (TriMesh, Features) {
 }
 
 /// Only a point `origin` with the frame of the axes; the body is a small ball five metres away.
-pub fn nothing() -> (TriMesh, Features) {
+pub(crate) fn nothing() -> (TriMesh, Features) {
     let ball = |u: f64, v: f64| {
         let (t, p) = (TAU * u, PI * v);
         DVec3::new(10.0 * p.sin() * t.sin(), -10.0 * p.cos(), 10.0 * p.sin() * t.cos() - 5000.0)
@@ -81,7 +82,7 @@ pub fn nothing() -> (TriMesh, Features) {
 }
 
 /// A ball of radius 200 about (0, 1000, 0) with the point `origin` in its middle.
-pub fn ball() -> (TriMesh, Features) {
+pub(crate) fn ball() -> (TriMesh, Features) {
     let place = |u: f64, v: f64| {
         let (t, p) = (TAU * u, PI * v);
         DVec3::new(200.0 * p.sin() * t.sin(), 1000.0 - 200.0 * p.cos(), 200.0 * p.sin() * t.cos())
@@ -92,7 +93,7 @@ pub fn ball() -> (TriMesh, Features) {
 }
 
 /// A ring of radii 220 and 60 about the vertical axis, in the plane y = 1000, with the point `origin` in its middle.
-pub fn ring() -> (TriMesh, Features) {
+pub(crate) fn ring() -> (TriMesh, Features) {
     let place = |u: f64, v: f64| {
         let (t, p) = (TAU * u, TAU * v);
         let r = 220.0 - 60.0 * p.cos();
