@@ -260,7 +260,9 @@ pub fn regenerate(
     drop(fine);
     drop(rough);
     settle(&mut refined, &positions);
-    seconds.shape = clock.stage(0.95, "naming")?;
+    clock.stage(0.95, "naming")?;
+    let spent = seconds.prepare + seconds.topology + seconds.factor;
+    seconds.shape = (Instant::now() - clock.start).as_secs_f64() - spent;
 
     let ease_wanted = layout.ease.iter().map(|e| (e.name.clone(), e.spec.ease)).collect();
     let garment_lines = garment::lines(&refined, &lines, layout.lines.len());

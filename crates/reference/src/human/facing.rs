@@ -4,7 +4,7 @@
 use mesh_kernel::glam::DVec2;
 
 use super::figure::{Figure, Level};
-use super::marks::Proportions;
+use super::joins::Proportions;
 use super::ring::depth_at;
 
 /// Positive if the body faces +z; near zero if nothing tells.

@@ -6,6 +6,7 @@ mod facing;
 mod figure;
 mod girths;
 mod heading;
+mod joins;
 mod limbs;
 mod marks;
 mod normals;
@@ -164,7 +165,7 @@ pub fn extract(raw: &TriMesh, options: &HumanOptions) -> Result<HumanBody, Human
 
     let mut warnings = Vec::new();
     let mut figure = figure::Figure::new(&surface, height);
-    let mut votes = facing::votes(&figure, &marks::Proportions::of(&figure));
+    let mut votes = facing::votes(&figure, &joins::Proportions::of(&figure));
     if let Some(wanted) = options.facing {
         votes = placement.rotation.transpose().mul_vec3(wanted).z;
     } else if votes.abs() < 0.6 {
