@@ -144,9 +144,9 @@ impl Umbrella {
         let n = self.order.len();
         let mut unknown = vec![u32::MAX; n];
         let mut count = 0;
-        for v in 0..n {
-            if self.step[v] != 0.0 {
-                unknown[v] = count as u32;
+        for (u, step) in unknown.iter_mut().zip(&self.step) {
+            if *step != 0.0 {
+                *u = count as u32;
                 count += 1;
             }
         }
