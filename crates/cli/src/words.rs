@@ -37,7 +37,13 @@ pub(crate) enum Command {
     Batch(Batch),
     Features(Features),
     Form(Form),
+    /// Find every broken rule of a model: incidence, orientation, joints, degenerate and duplicate faces, counts.
+    ///
+    /// Example: toile check out/dress/garment.obj
     Check(Model),
+    /// Say what a model holds: surfaces, joints, nodes, edges, faces, parts, cycles, voids, boundary, area, volume.
+    ///
+    /// Example: toile info out/dress/garment.obj
     Info(Model),
     Flatten(Flatten),
     Render(Render),

@@ -3,7 +3,7 @@
 //! * [`mod@regenerate`]: features → construction → flattening → pieces → files;
 //! * [`batch`]: the same for many bodies;
 //! * [`report`]: the keys of `report.json`;
-//! * [`document`]: `design.toile`;
+//! * [`document`]: the file `design.toile`;
 //! * [`pictures`]: front, back, pattern, features, any model;
 //! * [`model_info`]: what a model holds;
 //! * [`output`]: files made in memory, then written.

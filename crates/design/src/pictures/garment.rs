@@ -67,7 +67,8 @@ fn frame(garment: &TriMesh) -> Vec<ScenePoint> {
     let air = DVec3::splat(AIR * (high - low).max_element());
     let ends = [low - air, high + air];
     let corner = |i: usize| DVec3::new(ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2].z);
-    let point = |i| ScenePoint { position: corner(i), color: Color::INK, diameter: 1.0, hidden: Hidden::Omitted };
+    let point =
+        |i| ScenePoint { position: corner(i), color: Color::INK, diameter: 1.0, hidden: Hidden::Omitted };
     (0..8).map(point).collect()
 }
 

@@ -39,7 +39,7 @@ pub struct ExportedCurve {
     /// Length along the skin.
     pub length: f64,
     /// Tape measure of a closed curve: length of its convex hull.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
+    #[serde(default)]
     pub girth: Option<f64>,
     /// Points in order; a closed curve does not repeat the first.
     pub polyline: Vec<[f64; 3]>,

@@ -6,10 +6,11 @@ use mesh_kernel::glam::{DVec2, DVec3};
 use super::figure::{Figure, Level, Side};
 use super::plates::arm_plate;
 use super::ring::{Ring, depth_at};
+use crate::dress_form::HEADLESS_HEIGHT_RATIO;
 
-/// The stature, also of a form without a head: forms end at the neck, at 0.87 of the stature.
+/// The stature, also of a form without a head, which is taken to end at the neck as [the program's own forms](HEADLESS_HEIGHT_RATIO) do.
 pub(crate) fn stature_guess(figure: &Figure<'_>) -> f64 {
-    if has_head(figure) { figure.height } else { figure.height / 0.87 }
+    if has_head(figure) { figure.height } else { figure.height / HEADLESS_HEIGHT_RATIO }
 }
 
 /// Heights of a body by the parts of an average adult's stature, so that children and forms compare.

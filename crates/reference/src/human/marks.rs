@@ -201,7 +201,7 @@ fn neck_marks(
         let y = profile.y[hollow] - 0.049 * stature;
         y.clamp(armpit_y + 0.062 * stature, armpit_y + 0.112 * stature)
     } else {
-        warnings.push("no head: neck points were put by proportion".to_owned());
+        warnings.push("no head: stature and neck points were put by proportion".to_owned());
         (armpit_y + 0.086 * stature).min(top - 0.012 * stature)
     };
     let nape = DVec3::new(0.0, nape_y, profile.at(&profile.back, nape_y));

@@ -206,8 +206,13 @@ fn features_of(
     warnings: Vec<String>,
 ) -> Result<Features, String> {
     let field = normals::NormalField::new(figure.mesh);
-    let mut features =
-        Features { facing: DVec3::Z, up: DVec3::Y, height: figure.height, warnings, ..Features::default() };
+    let mut features = Features {
+        facing: DVec3::Z,
+        up: DVec3::Y,
+        height: joins::stature_guess(&figure),
+        warnings,
+        ..Features::default()
+    };
     let trunk = girths::add(figure, marks, &field, &mut features)?;
     verticals::add(figure, marks, &trunk, &field, &mut features)?;
     limbs::add(figure, marks, &field, &mut features);
