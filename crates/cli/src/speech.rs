@@ -13,7 +13,7 @@ use crate::words::Common;
 pub(crate) struct Speech {
     pub(crate) json: bool,
     quiet: bool,
-    pub(crate) verbose: bool,
+    verbose: bool,
     progress: ProgressBar,
 }
 
@@ -29,9 +29,13 @@ impl Speech {
         Self { json: common.json, quiet: common.quiet, verbose: common.verbose, progress }
     }
 
-    /// Says what is being done now; shown on a terminal only.
+    /// Says what is being done now; shown on a terminal only, or line by line when asked to say more.
     pub(crate) fn step(&self, what: impl Into<String>) {
-        self.progress.set_message(what.into());
+        let what = what.into();
+        if self.verbose {
+            self.progress.suspend(|| eprintln!("{what}"));
+        }
+        self.progress.set_message(what);
     }
 
     /// Takes the progress line away.

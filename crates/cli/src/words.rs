@@ -23,7 +23,7 @@ pub(crate) struct Common {
     /// Say nothing but errors.
     #[arg(long, short, global = true, conflicts_with = "verbose")]
     pub(crate) quiet: bool,
-    /// Say more: every step, warnings in full.
+    /// Say every step.
     #[arg(long, short, global = true)]
     pub(crate) verbose: bool,
     /// Threads to work on; results do not depend on it. Default: one a core.

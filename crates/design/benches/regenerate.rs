@@ -1,4 +1,5 @@
 //! The whole way from a body to files, on the shipped samples.
+#![allow(clippy::unwrap_used, reason = "what is unexpected here is a finding")]
 
 use std::path::Path;
 use std::time::Instant;

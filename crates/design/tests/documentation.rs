@@ -1,4 +1,5 @@
 //! What the guide and the samples say is what the program reads.
+#![allow(clippy::unwrap_used, reason = "what is unexpected here is a finding")]
 
 use std::path::{Path, PathBuf};
 

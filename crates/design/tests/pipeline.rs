@@ -1,4 +1,5 @@
 //! The pipeline on a form that the program makes itself.
+#![allow(clippy::unwrap_used, reason = "what is unexpected here is a finding")]
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

@@ -209,7 +209,7 @@ fn features_of(
     let mut features = Features {
         facing: DVec3::Z,
         up: DVec3::Y,
-        height: joins::stature_guess(&figure),
+        height: joins::stature_guess(figure),
         warnings,
         ..Features::default()
     };
