@@ -96,7 +96,7 @@ fn unit_axes_and_heading_of_the_file_do_not_matter() {
         .positions
         .iter()
         .zip(&there.mesh.positions)
-        .map(|(a, b)| turn(*a).distance(there.body.placement.to_file(*b)))
+        .map(|(a, b)| turn(here.body.placement.to_file(*a)).distance(there.body.placement.to_file(*b)))
         .fold(0.0, f64::max);
     assert!(far < 1e-3, "farthest node {far} m away");
 }
