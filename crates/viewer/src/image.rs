@@ -79,8 +79,7 @@ impl Image {
     /// The picture as a PNG file: RGB, no date, no comment; the same picture gives the same bytes.
     pub fn to_png(&self) -> Vec<u8> {
         let mut bytes = Vec::new();
-        let encoder =
-            PngEncoder::new_with_quality(&mut bytes, CompressionType::Default, FilterType::Adaptive);
+        let encoder = PngEncoder::new_with_quality(&mut bytes, CompressionType::Fast, FilterType::Adaptive);
         let written = encoder.write_image(&self.rgb, self.width, self.height, image::ExtendedColorType::Rgb8);
         // Writing to memory fails only for a wrong byte count, which the constructors exclude.
         debug_assert!(written.is_ok());

@@ -46,6 +46,13 @@ pub(crate) fn run(words: &Flatten, speech: &Speech) -> Result<(), Failure> {
     let cuts = words.cut.as_deref().map(chains).transpose()?.unwrap_or_default();
     speech.step("reading");
     let mut mesh = read_mesh(&words.mesh)?;
+    if let Some(node) = cuts.iter().flatten().find(|n| **n as usize >= mesh.positions.len()) {
+        let (node, nodes) = (node + 1, mesh.positions.len());
+        return Err(Failure::new(format!(
+            "--cut names node {node}, but {} has {nodes}",
+            words.mesh.display()
+        )));
+    }
     for p in &mut mesh.positions {
         *p *= words.unit.millimetres();
     }

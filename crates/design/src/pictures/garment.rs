@@ -3,8 +3,8 @@
 use mesh_kernel::TriMesh;
 use mesh_kernel::glam::DVec3;
 use viewer::{
-    Camera, Color, Hidden, Image, KeySign, LegendKey, Lens, RenderError, RenderOptions, Scene, SceneLine,
-    SceneMesh, ScenePoint, View, render,
+    Camera, Color, Hidden, Image, KeySign, LegendKey, Lens, Occlusion, RenderError, RenderOptions, Scene,
+    SceneLine, SceneMesh, ScenePoint, View, render,
 };
 
 use super::legend;
@@ -51,7 +51,9 @@ pub fn garment_pictures(
     scene.lines.extend(lines.iter().map(|l| drawn(l, line_color, 1.6)));
     let key = |text: &str, color| LegendKey { text: text.to_owned(), color, sign: KeySign::Line };
     scene.legend = legend(None, vec![key("seam", seam_color), key("profile", line_color)]);
-    let options = RenderOptions::sized(SIZE.0, SIZE.1);
+    // Two pictures come with every garment: light shadows, as soft as the eye needs.
+    let occlusion = Some(Occlusion { rays: 5, shadow_rays: 2, spacing: 3, ..Occlusion::default() });
+    let options = RenderOptions { occlusion, samples: 6, ..RenderOptions::sized(SIZE.0, SIZE.1) };
     let framed = Scene { points: frame(garment), legend: scene.legend.clone(), ..Scene::default() };
     let look = |view| -> Result<Image, RenderError> {
         let camera = Camera::new(view, Lens::PORTRAIT).fit(&framed, &options)?;

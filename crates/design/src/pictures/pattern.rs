@@ -107,11 +107,11 @@ fn draw_scale(drawing: &mut Drawing2d) {
     drawing.items.push(text(0.5 * (bar[0] + bar[1]) - DVec2::Y * 31.0, "100 mm".to_owned()));
 }
 
-/// Pixels that fit the drawing's shape, about three megapixels.
+/// Pixels that fit the drawing's shape, about two megapixels.
 fn page_size(drawing: &Drawing2d) -> (u32, u32) {
     let size = drawing.bounds().map_or(DVec2::ONE, |[low, high]| (high - low).max(DVec2::ONE));
     let aspect = (size.x / (size.y + 120.0)).clamp(0.25, 4.0);
-    let height = (3.0e6 / aspect).sqrt();
+    let height = (2.0e6 / aspect).sqrt();
     ((height * aspect).round() as u32, height.round() as u32)
 }
 

@@ -111,8 +111,7 @@ impl Measurements {
     /// * Bust, waist, hip: the average figure's value times the geometric mean of the given ones' ratios to theirs.
     ///   Without any, they stay the average's (children: with height, chest = 56 + (height − 104) / 2.27, the slope of
     ///   EN 13402-3's children's table). Height: the average's, for children by the same line from the chest.
-    /// * Underbust: women bust · (0.826 + 0.00106 (bust − 83.8)), the regression line of the five sizes of ASTM D5585-11
-    ///   (R² 0.98); men 0.905 bust, children 0.94 bust.
+    /// * Underbust: women bust · (0.826 + 0.00106 (bust − 83.8)), the regression line of the five sizes of ASTM D5585-11; men 0.905 bust, children 0.94 bust.
     /// * High hip: waist + 0.66 (hip − waist). Neck base: women 34.9 + 0.2016 (bust − 83.8) (ASTM D5585-11 again),
     ///   men 17.5 + 0.24 bust, children 11.5 + 0.3 bust.
     /// * Shoulder width: 0.185 height + 0.055 bust; men and children 0.2 height + 0.05 / 0.045 bust.
