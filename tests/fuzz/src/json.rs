@@ -21,7 +21,7 @@ pub(crate) fn mutate(bytes: &[u8], other: &[u8], words: &[&str], random: &mut Ra
     let mut pool = Vec::new();
     texts(&tree, &mut pool);
     pool.extend(words.iter().map(|w| (*w).to_owned()));
-    for _ in 0..random.length(4) {
+    for _ in 0..random.length(3) {
         let count = size(&tree);
         let piece = match &donor {
             Some(donor) if random.one_in(4) => nth(donor, &mut random.below(size(donor))).cloned(),

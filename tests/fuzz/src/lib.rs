@@ -30,7 +30,7 @@ pub use random::Random;
 /// Time after which a reader hangs: what it is given is at most [`LONGEST`] bytes.
 pub const HANG: Duration = Duration::from_secs(2);
 
-/// Most inputs kept to start from.
+/// Most inputs of either outcome kept to start from.
 const CORPUS: usize = 3000;
 
 /// How a reader's files are built, so that changes get past their first bytes.
@@ -169,7 +169,9 @@ pub fn fuzz(reader: Reader, allocator: &'static CountingAllocator) -> Report {
     let (send, receive) = mpsc::channel();
     let start = Instant::now();
     let worker = watched.clone();
-    std::thread::spawn(move || send.send(work(&reader, allocator, &worker, seconds, seed)));
+    quiet_panics();
+    let work = move || send.send(work(&reader, allocator, &worker, seconds, seed));
+    std::thread::Builder::new().name(WORKER.into()).spawn(work).expect("a thread can be started");
     // The input seen at the last look, when it was first seen, and the worker's time on a core then.
     let mut seen = (0, Instant::now(), None);
     loop {
@@ -200,6 +202,30 @@ pub fn fuzz(reader: Reader, allocator: &'static CountingAllocator) -> Report {
     }
 }
 
+/// Panics of readers are caught and reported once; everybody else's are told as ever.
+fn quiet_panics() {
+    static ONCE: std::sync::Once = std::sync::Once::new();
+    ONCE.call_once(|| {
+        let tell = std::panic::take_hook();
+        std::panic::set_hook(Box::new(move |info| {
+            if std::thread::current().name() == Some(WORKER) {
+                let place = info.location().map(|l| format!("{}:{}", l.file(), l.line())).unwrap_or_default();
+                PANIC.with(|last| last.replace(place));
+            } else {
+                tell(info);
+            }
+        }));
+    });
+}
+
+/// Name of the thread on which readers run.
+const WORKER: &str = "reader under test";
+
+thread_local! {
+    /// Where the last panic was.
+    static PANIC: std::cell::RefCell<String> = const { std::cell::RefCell::new(String::new()) };
+}
+
 fn keep(name: &str, input: &[u8], what: String) -> Find {
     let hash = input.iter().fold(0xcbf2_9ce4_8422_2325u64, |h, b| (h ^ u64::from(*b)).wrapping_mul(0x100_0000_01b3));
     let file = finds_folder().join(format!("{name}-{hash:016x}.bin"));
@@ -227,7 +253,8 @@ fn work(
         watched,
         outcomes: BTreeSet::new(),
         failures: BTreeSet::new(),
-        corpus: Vec::new(),
+        sound: reader.seeds.clone(),
+        refused: Vec::new(),
         report: Report {
             name: reader.name,
             seconds: 0.0,
@@ -248,7 +275,6 @@ fn work(
             run.report.finds.push(keep(reader.name, seed, "a valid file is refused".into()));
         }
     }
-    run.corpus.clone_from(&reader.seeds);
     let mut random = Random(seed);
     let mut rounds = 0;
     while seconds.map_or(rounds < reader.inputs, |s| start.elapsed() < s) && run.report.finds.len() < 100 {
@@ -267,17 +293,19 @@ struct Run<'a> {
     watched: &'a Watched,
     outcomes: BTreeSet<String>,
     failures: BTreeSet<String>,
-    corpus: Vec<Vec<u8>>,
+    /// Files that were found sound, and those refused in a way of their own.
+    sound: Vec<Vec<u8>>,
+    refused: Vec<Vec<u8>>,
     report: Report,
 }
 
 impl Run<'_> {
     fn next(&self, random: &mut Random) -> Vec<u8> {
-        // Half of the time what was found last: where there is something new there is often more.
-        let fresh = self.corpus.len().saturating_sub(64);
-        let of = |random: &mut Random| match random.below(2) {
-            0 => &self.corpus[fresh + random.below(self.corpus.len() - fresh)],
-            _ => random.pick(&self.corpus),
+        let of = |random: &mut Random| {
+            let all = if self.refused.is_empty() || random.below(8) < 5 { &self.sound } else { &self.refused };
+            // Half of the time what was found last: where there is something new there is often more.
+            let fresh = if random.one_in(2) { all.len().saturating_sub(32) } else { 0 };
+            &all[fresh + random.below(all.len() - fresh)]
         };
         let (mut input, other) = (of(random).clone(), of(random));
         let words = self.reader.words;
@@ -311,16 +339,17 @@ impl Run<'_> {
         if input.len() >= 1 << 10 {
             self.report.peak_factor = self.report.peak_factor.max(peak as f64 / input.len() as f64);
         }
-        let outcome = match outcome {
-            Ok(Reading::Sound(sizes)) => {
+        let (kept, outcome) = match outcome {
+            Ok(Reading::Sound(sizes)) => (&mut self.sound, {
                 format!("{:?}", sizes.iter().map(|s| s.checked_ilog2()).collect::<Vec<_>>())
-            }
+            }),
             Ok(Reading::Refused(words)) => {
                 self.report.refused += 1;
-                if words.is_empty() || words.len() > 2000 {
+                // A message may quote from the file, once.
+                if words.is_empty() || words.len() > 1000 + input.len() {
                     self.find(&input, &format!("a message of {} bytes", words.len()));
                 }
-                kind(&words)
+                (&mut self.refused, kind(&words))
             }
             Err(payload) => {
                 let words = payload
@@ -328,16 +357,18 @@ impl Run<'_> {
                     .map(String::as_str)
                     .or_else(|| payload.downcast_ref::<&str>().copied())
                     .unwrap_or("?");
-                self.find(&input, &format!("panics: {words}"));
+                let place = PANIC.with(std::cell::RefCell::take);
+                self.find(&input, &format!("panics at {place}: {words}"));
                 return;
             }
         };
         let allowed = self.reader.base_memory + self.reader.memory_factor * input.len();
-        if peak > allowed {
-            self.find(&input, &format!("takes {peak} bytes of memory for an input of {}", input.len()));
+        let greedy = peak > allowed;
+        if self.outcomes.insert(outcome) && kept.len() < CORPUS {
+            kept.push(input.clone());
         }
-        if self.outcomes.insert(outcome) && self.corpus.len() < CORPUS {
-            self.corpus.push(input);
+        if greedy {
+            self.find(&input, &format!("takes {peak} bytes of memory for an input of {}", input.len()));
         }
     }
 

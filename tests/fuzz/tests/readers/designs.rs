@@ -46,7 +46,7 @@ const SMALL: &str = r#"{"toile_template":1,"name":"tube","description":"d","mirr
 "fair_across":[["left_s","right_s"]],"ease":{"waist":{"ease":20,"curve":"waist","surfaces":["t"]}},
 "pieces":{"left_s":{"label":"L","quantity":2,"allowance":10,"edges":{"hem":30},"grain":["b","left_a"],"on_fold":"hem","fabric":"shell"},"t":{"grain":"down"}}}"#;
 
-fn templates() -> Vec<String> {
+pub(crate) fn templates() -> Vec<String> {
     vec![SMALL.into(), sample("fitted-bodice.json")]
 }
 
@@ -68,7 +68,7 @@ fn template() {
     }));
 }
 
-fn document(template: &str) -> Document {
+pub(crate) fn document(template: &str) -> Document {
     let template = Template::from_json(template).expect("a valid template");
     Document {
         toile_design: DOCUMENT_VERSION,
