@@ -156,3 +156,14 @@ fn features() {
         Err(error) => Reading::Refused(error.to_string()),
     }));
 }
+
+#[test]
+fn batch_report() {
+    let text = r#"{"template":"t","fingerprint":"0123456789abcdef","warnings":["far","near"],"seconds":{"total":1.5}}"#;
+    run(reader("batch report", vec![text.into()], |bytes| {
+        match design::batch::finished(bytes, "0123456789abcdef") {
+            Some(warnings) => Reading::Sound(vec![warnings]),
+            None => Reading::Refused("no report of these inputs".into()),
+        }
+    }));
+}

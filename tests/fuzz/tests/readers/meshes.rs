@@ -31,7 +31,7 @@ fn written(format: Format) -> Vec<Vec<u8>> {
     let mut full = saddle(4);
     full.corner_uvs = Some(full.faces.iter().map(|f| f.map(|v| DVec2::new(f64::from(v) / 8.0, 0.5))).collect());
     full.groups = vec![Group { name: "front".into(), faces: 0..10 }, Group { name: "back".into(), faces: 10..32 }];
-    let mut files = Vec::new();
+    let mut files = vec![to_bytes(format, &saddle(12), &WriteOptions::default())];
     for mesh in [bare, full] {
         for encoding in [Encoding::Binary, Encoding::Ascii] {
             for decimals in [None, Some(3)] {
