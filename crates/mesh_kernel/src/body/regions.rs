@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 
 use super::Body;
-use super::complex::Complex;
 use super::ids::{FaceId, JointId, SurfaceId};
 use super::joint::{Sheet, Side};
 use super::shells::Shells;
+use super::welded::{FaceNumbers, Welded};
 
 /// Which side of a face: the one where its normal looks, or the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -34,7 +34,7 @@ pub struct Regions {
     regions: Vec<Region>,
     shell_of_side: Vec<u32>,
     region_of_shell: Vec<u32>,
-    face_offsets: Vec<u32>,
+    faces: FaceNumbers,
 }
 
 impl Regions {
@@ -45,7 +45,7 @@ impl Regions {
 
     /// The shell that a side of a face belongs to: sides that one can walk to round edges.
     pub fn shell(&self, surface: SurfaceId, face: FaceId, side: FaceSide) -> u32 {
-        let f = self.face_offsets[surface.index()] + face.0;
+        let f = self.faces.number(surface, face.0);
         self.shell_of_side[2 * f as usize + usize::from(side == FaceSide::Back)]
     }
 
@@ -80,7 +80,7 @@ impl Body {
     ///
     /// O(faces), and O(floating parts · faces) where there are voids and several parts.
     pub fn regions(&self) -> Regions {
-        let complex = Complex::new(self);
+        let complex = Welded::new(self);
         let shells = Shells::new(&complex);
         let volumes = shells.volumes(self);
         let outer = shells.outer(&volumes);
@@ -109,12 +109,7 @@ impl Body {
                 *volume += volumes[shell];
             }
         }
-        Regions {
-            regions,
-            shell_of_side: shells.of_side,
-            region_of_shell,
-            face_offsets: complex.face_offsets,
-        }
+        Regions { regions, shell_of_side: shells.of_side, region_of_shell, faces: complex.faces }
     }
 
     /// Puts every part that floats in a void into the smallest void around it.
@@ -125,10 +120,8 @@ impl Body {
         (outer, voids): (&[usize], &[usize]),
         region_of_shell: &mut [u32],
     ) {
-        let triangles: Vec<[DVec3; 3]> = self
-            .surfaces()
-            .flat_map(|(_, s)| (0..s.faces().len() as u32).map(move |f| s.corners(FaceId(f))))
-            .collect();
+        let triangles: Vec<[DVec3; 3]> =
+            self.surfaces().flat_map(|(_, s)| s.live_faces().map(move |f| s.corners(f))).collect();
         // A point of every part: the middle of its first face.
         let mut points = vec![DVec3::ZERO; shells.sheets];
         for (f, &part) in shells.sheet_of_face.iter().enumerate().rev() {
