@@ -7,9 +7,11 @@
 mod delta;
 mod edge_set;
 mod journal;
+mod minimise;
 mod split_edge;
 mod swap_edge;
 
+pub use minimise::{minimise, minimise_with};
 pub use split_edge::{EdgeSplit, SplitEdgeError};
 pub use swap_edge::{Guard, SwapError};
 
