@@ -43,19 +43,31 @@ fn same_side(a: DVec3, b: DVec3, p: DVec3, q: DVec3) -> bool {
     false
 }
 
-const NOWHERE: u8 = 4;
+/// Where a sheet lies seen from another, turning by the right hand about an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Quarter {
+    /// In the very same direction.
+    Same,
+    /// Within the first half turn.
+    First,
+    /// Exactly opposite.
+    Opposite,
+    /// Within the second half turn.
+    Second,
+    /// On the axis: degenerate.
+    Nowhere,
+}
 
-/// Where `q` lies seen from `p`, turning by the right hand about `a` → `b`: 0 at `p` itself, 1 within the first half
-/// turn, 2 opposite, 3 within the second half, 4 nowhere (on the axis).
-fn quarter(a: DVec3, b: DVec3, p: DVec3, q: DVec3) -> u8 {
+/// Where `q` lies seen from `p`, which is not on the axis, turning about `a` → `b`. Exact.
+pub(crate) fn quarter(a: DVec3, b: DVec3, p: DVec3, q: DVec3) -> Quarter {
     if collinear(a, b, q) {
-        return NOWHERE;
+        return Quarter::Nowhere;
     }
     match turn(a, b, p, q) {
-        t if t > 0.0 => 1,
-        t if t < 0.0 => 3,
-        _ if same_side(a, b, p, q) => 0,
-        _ => 2,
+        t if t > 0.0 => Quarter::First,
+        t if t < 0.0 => Quarter::Second,
+        _ if same_side(a, b, p, q) => Quarter::Same,
+        _ => Quarter::Opposite,
     }
 }
 
@@ -65,11 +77,11 @@ fn quarter(a: DVec3, b: DVec3, p: DVec3, q: DVec3) -> u8 {
 /// `None` where `a` and `b` coincide or every sheet is degenerate. O(k log k) exact predicates.
 pub(crate) fn radial_order(a: DVec3, b: DVec3, apexes: &[DVec3]) -> Option<Radial> {
     let &first = apexes.iter().find(|&&p| !collinear(a, b, p))?;
-    let mut order: Vec<(u8, usize)> =
+    let mut order: Vec<(Quarter, usize)> =
         apexes.iter().enumerate().map(|(i, &q)| (quarter(a, b, first, q), i)).collect();
-    let compare = |x: &(u8, usize), y: &(u8, usize)| {
+    let compare = |x: &(Quarter, usize), y: &(Quarter, usize)| {
         x.0.cmp(&y.0).then_with(|| match x.0 {
-            1 | 3 => match turn(a, b, apexes[x.1], apexes[y.1]) {
+            Quarter::First | Quarter::Second => match turn(a, b, apexes[x.1], apexes[y.1]) {
                 t if t > 0.0 => Ordering::Less,
                 t if t < 0.0 => Ordering::Greater,
                 _ => Ordering::Equal,
@@ -84,7 +96,7 @@ pub(crate) fn radial_order(a: DVec3, b: DVec3, apexes: &[DVec3]) -> Option<Radia
         if k > 0 && compare(&order[k - 1], x) != Ordering::Equal {
             rank += 1;
         }
-        ranks[x.1] = (x.0 != NOWHERE).then_some(rank);
+        ranks[x.1] = (x.0 != Quarter::Nowhere).then_some(rank);
     }
     Some(Radial { order: order.into_iter().map(|(_, i)| i as u32).collect(), ranks })
 }

@@ -78,7 +78,7 @@ impl Body {
     }
 
     /// Stores an order of sheets and puts the uses into the order of their first sheets.
-    fn store_order(&mut self, joint: JointId, order: &[Sheet]) {
+    pub(super) fn store_order(&mut self, joint: JointId, order: &[Sheet]) {
         let j = &mut self.joints[joint.index()];
         let mut rank = vec![NONE; j.uses.len()];
         let mut next = 0;
