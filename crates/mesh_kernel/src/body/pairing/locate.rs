@@ -19,7 +19,8 @@ const AIMS: [f64; 4] = [0.5, 0.37, 0.71, 0.11];
 const ARCS: usize = 64;
 
 /// The sector of `fan` in which `other` lies, by the number that `fan` gives it; `None` where they run through each other
-/// or touch along a line.
+/// or nothing of `other` is clear of `fan`. Fans may touch along lines, as pairs of sheets do at the end of an edge that
+/// has been resolved.
 pub(super) fn locate(
     links: &Links,
     places: &[(SurfaceId, NodeId)],
@@ -28,11 +29,17 @@ pub(super) fn locate(
     other: &LocalFan,
 ) -> Option<u32> {
     let n = links.position(places, node);
-    let mut found = None;
+    let arcs_of_fan = arcs(links, node, fan);
+    let ends: Vec<DVec3> = other.ends.iter().map(|&end| links.position(places, end)).collect();
+    let clear = |d: &DVec3| !arcs_of_fan.iter().any(|a| on_arc(n, a, *d));
+    let mut directions: Vec<DVec3> = ends.iter().copied().filter(clear).collect();
+    if directions.len() < ends.len() {
+        directions.extend(arcs(links, node, other).iter().map(|a| a.p.midpoint(a.q)).filter(clear));
+    }
     // Every direction of the other fan must lie in the same sector, or they run through each other.
-    for &end in &other.ends {
-        let d = links.position(places, end);
-        let sector = sector_at(links, node, n, fan, d)?;
+    let mut found = None;
+    for d in directions {
+        let sector = sector_at(n, &arcs_of_fan, d)?;
         if *found.get_or_insert(sector) != sector {
             return None;
         }
@@ -63,12 +70,7 @@ fn arcs(links: &Links, node: u32, fan: &LocalFan) -> Vec<Arc> {
     arcs
 }
 
-fn sector_at(links: &Links, node: u32, n: DVec3, fan: &LocalFan, d: DVec3) -> Option<u32> {
-    let arcs = arcs(links, node, fan);
-    // On an arc: the fans touch along a line.
-    if arcs.iter().any(|a| on_arc(n, a, d)) {
-        return None;
-    }
+fn sector_at(n: DVec3, arcs: &[Arc], d: DVec3) -> Option<u32> {
     let from = (d - n).normalize_or_zero();
     for aim in AIMS {
         for a in arcs.iter().take(ARCS) {
@@ -80,7 +82,7 @@ fn sector_at(links: &Links, node: u32, n: DVec3, fan: &LocalFan, d: DVec3) -> Op
             }
             // Beyond the arc, so that rounding cannot make the path end before it.
             let to = n + (middle + 0.25 * (middle - from)) * (d - n).length();
-            if let Some(sector) = first_crossing(n, &arcs, d, to) {
+            if let Some(sector) = first_crossing(n, arcs, d, to) {
                 return Some(sector);
             }
         }
