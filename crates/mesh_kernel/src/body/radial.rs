@@ -12,10 +12,26 @@ fn coord(p: DVec3) -> Coord3D<f64> {
     Coord3D { x: p.x, y: p.y, z: p.z }
 }
 
+/// Coordinates between these (largest of all) keep products of three, with all their digits, clear of what a double holds.
+const SMALL: f64 = 1e-50;
+const LARGE: f64 = 1e50;
+
+/// The points times a power of two, which changes no digit, so that predicates neither overflow nor underflow.
+fn scaled<const N: usize>(points: [DVec3; N]) -> [DVec3; N] {
+    let largest = points.iter().fold(0.0f64, |m, p| m.max(p.abs().max_element()));
+    if (SMALL..=LARGE).contains(&largest) || largest == 0.0 || !largest.is_finite() {
+        return points;
+    }
+    // In two steps, for no double holds the inverse of the smallest.
+    let half = (-0.5 * largest.log2()).round().exp2();
+    points.map(|p| p * half * half)
+}
+
 /// Greater than zero where turning from `p` to `q` about the axis from `a` to `b`, as the right hand's fingers turn,
 /// takes less than half a turn; zero where all four points are coplanar. Exact.
 pub(crate) fn turn(a: DVec3, b: DVec3, p: DVec3, q: DVec3) -> f64 {
-    -orient3d(coord(a), coord(b), coord(p), coord(q))
+    let [a, b, p, q] = scaled([a, b, p, q]).map(coord);
+    -orient3d(a, b, p, q)
 }
 
 fn drop_axis(p: DVec3, axis: usize) -> Coord<f64> {
@@ -28,11 +44,13 @@ fn drop_axis(p: DVec3, axis: usize) -> Coord<f64> {
 
 /// Whether `a`, `b`, `p` lie on one line. Exact.
 pub(crate) fn collinear(a: DVec3, b: DVec3, p: DVec3) -> bool {
+    let [a, b, p] = scaled([a, b, p]);
     (0..3).all(|axis| orient2d(drop_axis(a, axis), drop_axis(b, axis), drop_axis(p, axis)) == 0.0)
 }
 
 /// For coplanar points: whether `p` and `q` lie on the same side of the line through `a` and `b`. Exact.
 fn same_side(a: DVec3, b: DVec3, p: DVec3, q: DVec3) -> bool {
+    let [a, b, p, q] = scaled([a, b, p, q]);
     for axis in 0..3 {
         let [a, b, p, q] = [a, b, p, q].map(|x| drop_axis(x, axis));
         let of_p = orient2d(a, b, p);
@@ -112,12 +130,6 @@ pub(crate) struct Radial {
 }
 
 impl Radial {
-    /// Whether geometry alone does not order the sheets.
-    pub(crate) fn tied(&self) -> bool {
-        let highest = self.ranks.iter().flatten().max().map_or(0, |r| *r as usize + 1);
-        highest < self.ranks.len()
-    }
-
     /// Whether a cyclic order of sheets, given by their indices, goes round the axis once, clockwise. Degenerate sheets
     /// may stand anywhere.
     pub(crate) fn agrees(&self, order: &[u32]) -> bool {
@@ -138,7 +150,7 @@ mod tests {
         let apexes = [DVec3::X, DVec3::NEG_Y, DVec3::NEG_X, DVec3::Y];
         let radial = radial_order(DVec3::ZERO, DVec3::Z, &apexes).unwrap();
         assert_eq!(radial.order, [0, 3, 2, 1]);
-        assert!(!radial.tied());
+        assert_eq!(radial.ranks, [Some(0), Some(3), Some(2), Some(1)]);
         let radial = radial_order(DVec3::Z, DVec3::ZERO, &apexes).unwrap();
         assert_eq!(radial.order, [0, 1, 2, 3]);
     }
@@ -149,7 +161,7 @@ mod tests {
         let near = [DVec3::new(1.0, 0.0, 0.5), DVec3::new(1.0, ulp, 0.3), DVec3::new(1.0, -ulp, 0.7)];
         let radial = radial_order(DVec3::ZERO, DVec3::Z, &near).unwrap();
         assert_eq!(radial.order, [0, 1, 2]);
-        assert!(!radial.tied());
+        assert_eq!(radial.ranks, [Some(0), Some(1), Some(2)]);
     }
 
     #[test]
@@ -157,7 +169,7 @@ mod tests {
         let apexes = [DVec3::Z * 3.0, DVec3::Y, DVec3::X, DVec3::Y * 2.0];
         let radial = radial_order(DVec3::ZERO, DVec3::Z, &apexes).unwrap();
         assert_eq!(radial.order, [1, 3, 2, 0]);
-        assert!(radial.tied());
+        assert_eq!(radial.ranks, [None, Some(0), Some(1), Some(0)]);
         assert!(radial.agrees(&[2, 0, 3, 1]) && radial.agrees(&[1, 2, 3]) && radial.agrees(&[2, 3, 1, 0]));
         assert!(radial_order(DVec3::ZERO, DVec3::Z, &[DVec3::Z]).is_none());
         let apexes = [DVec3::X, DVec3::Y, DVec3::NEG_X];

@@ -177,10 +177,14 @@ impl Body {
 /// Angles from each sheet to the next about the axis `a` → `b`, clockwise. Rounded as arcs are, but never across half or a
 /// full turn: on which side of these an angle lies is decided exactly.
 fn angles(a: DVec3, b: DVec3, apexes: &[DVec3]) -> Vec<f64> {
-    let direction = (b - a).normalize_or_zero();
+    let axis = b - a;
+    let direction = axis.normalize_or_zero();
+    // Across the axis. One rounding a step, so that slivers along the axis keep their digits.
     let out = |apex: DVec3| {
-        let p = apex - a;
-        p - direction * p.dot(direction)
+        (0..2).fold(apex - a, |p, _| {
+            let along = -p.dot(axis) / axis.length_squared();
+            DVec3::splat(along).mul_add(axis, p)
+        })
     };
     let mut angles: Vec<f64> = apexes
         .iter()
