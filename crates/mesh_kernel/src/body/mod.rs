@@ -38,6 +38,7 @@ mod compact;
 
 mod counts;
 pub mod edit;
+mod file;
 mod free_boundary;
 mod from_tri_mesh;
 mod homology;
@@ -65,6 +66,7 @@ pub use chain::{Chain, Loop};
 pub use check::Defect;
 pub use compact::{Compaction, SurfaceCompaction};
 pub use counts::Counts;
+pub use file::{BODY_FILE_EXTENSION, BODY_FILE_VERSION, BodyFileError};
 pub use free_boundary::{BoundaryLine, FreeEdge};
 pub use ids::{
     AttributeEdgeId, AttributeNodeId, ChainId, DirectedEdge, EdgeId, FaceId, JointId, LoopId, NONE, NodeId,
