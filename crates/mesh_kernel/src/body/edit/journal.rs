@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::loops::Loops;
 use crate::body::attribute::{AttributeEdge, AttributeNode};
 use crate::body::{EdgeId, SurfaceId};
 
@@ -14,10 +15,23 @@ pub(super) enum Record {
     SplitEdge {
         surface: SurfaceId,
         edge: EdgeId,
+        /// The half at the edge's old end.
+        second: EdgeId,
         at: f64,
-        position: DVec3,
-        attributes: Option<Box<Attributes>>,
+        /// How many nodes, edges and faces took numbers that were free.
+        reused: [u8; 3],
+        more: Option<Box<SplitMore>>,
     },
+}
+
+/// What few splits need.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct SplitMore {
+    /// Where the node is, if that is not to be computed from the edge itself: partners on a joint share it.
+    pub(super) position: Option<DVec3>,
+    pub(super) attributes: Option<Attributes>,
+    /// Before the split, where they had to be found anew.
+    pub(super) loops: Option<Loops>,
 }
 
 /// The attributes of a surface before an operator that changed them.

@@ -1,29 +1,32 @@
 //! Editing by operators that can be undone (K4, K5).
 //!
-//! An [`Editor`] holds a body, the pairs of nodes that edges join, and a journal. Every operator first finds out whether it may
+//! An [`Editor`] holds a body, the edges at its nodes, and a journal. Every operator first finds out whether it may
 //! (typed refusals, nothing changed), then acts and is logged. [`Editor::undo`] gives the body back bit for bit, ids
 //! included; [`Editor::transaction`] rolls back whole on an error.
 
-mod edge_set;
 mod journal;
+mod loops;
 mod split_edge;
+mod stars;
 mod swap_edge;
 
 pub use split_edge::{EdgeSplit, SplitEdgeError};
 pub use swap_edge::{Guard, SwapError};
 
-use edge_set::EdgeSet;
 use journal::{Journal, Record};
+use stars::Stars;
 
-use super::{Body, SurfaceId};
+use super::Body;
 
 /// A body under edit.
 #[derive(Clone, Debug, Default)]
 pub struct Editor {
     body: Body,
     /// By surface, made when first asked for.
-    joined: Vec<Option<EdgeSet>>,
+    stars: Vec<Option<Stars>>,
     journal: Journal,
+    /// Whether nothing can be undone but what a transaction that is open did.
+    forgetful: bool,
     /// Depth of transactions that are open.
     open: u32,
 }
@@ -31,8 +34,14 @@ pub struct Editor {
 impl Editor {
     /// Takes a body to edit. The journal is empty.
     pub fn new(body: Body) -> Self {
-        let joined = vec![None; body.surfaces.len()];
-        Self { body, joined, journal: Journal::default(), open: 0 }
+        let stars = vec![None; body.surfaces.len()];
+        Self { body, stars, journal: Journal::default(), forgetful: false, open: 0 }
+    }
+
+    /// Takes a body to edit without a journal: nothing can be undone, but a transaction that fails is still taken back.
+    /// For whoever makes a mesh anew and keeps the old body himself.
+    pub fn without_journal(body: Body) -> Self {
+        Self { forgetful: true, ..Self::new(body) }
     }
 
     /// The body as it is now.
@@ -92,26 +101,45 @@ impl Editor {
             let records = self.journal.done.split_off(start);
             self.take_back(&records);
         } else if self.open == 0 && self.journal.done.len() > start {
-            self.journal.marks.push(self.journal.done.len());
+            self.close();
         }
         result
+    }
+
+    /// Ends a step of the journal.
+    #[inline]
+    fn close(&mut self) {
+        if self.forgetful {
+            self.journal.done.clear();
+        } else {
+            self.journal.marks.push(self.journal.done.len());
+        }
     }
 
     /// Does and logs an operator that has been found possible.
     fn apply(&mut self, record: Record) {
         self.act(&record);
+        self.log(record);
+    }
+
+    /// Logs an operator that has been done.
+    #[inline]
+    fn log(&mut self, record: Record) {
+        if self.forgetful && self.open == 0 {
+            return;
+        }
         self.journal.undone.clear();
         self.journal.done.push(record);
         if self.open == 0 {
-            self.journal.marks.push(self.journal.done.len());
+            self.close();
         }
     }
 
     fn act(&mut self, record: &Record) {
         match record {
             Record::SwapEdge { surface, edge, clockwise } => self.do_swap(*surface, *edge, *clockwise),
-            Record::SplitEdge { surface, edge, at, position, .. } => {
-                self.do_split(*surface, *edge, *at, *position);
+            Record::SplitEdge { surface, edge, at, more, .. } => {
+                self.do_split(*surface, *edge, *at, more.as_deref());
             }
         }
     }
@@ -120,16 +148,10 @@ impl Editor {
         for record in records.iter().rev() {
             match record {
                 Record::SwapEdge { surface, edge, clockwise } => self.do_swap(*surface, *edge, !*clockwise),
-                Record::SplitEdge { surface, edge, attributes, .. } => {
-                    self.do_join(*surface, *edge, attributes.as_deref());
+                Record::SplitEdge { surface, edge, second, reused, more, .. } => {
+                    self.do_join(*surface, *edge, *second, *reused, more.as_deref());
                 }
             }
         }
-    }
-
-    /// Whether an edge of the surface joins two nodes. O(edges) when first asked, then O(1).
-    fn joined(&mut self, surface: SurfaceId, a: u32, b: u32) -> bool {
-        let s = &self.body.surfaces[surface.index()];
-        self.joined[surface.index()].get_or_insert_with(|| EdgeSet::new(s)).contains(a, b)
     }
 }
