@@ -35,7 +35,6 @@ mod carry;
 mod chain;
 mod check;
 mod compact;
-
 mod counts;
 pub mod edit;
 mod free_boundary;
@@ -51,7 +50,6 @@ mod regions;
 mod shells;
 mod slots;
 mod split_all;
-mod split_face;
 mod surface;
 mod weld;
 mod welded;
@@ -68,11 +66,10 @@ pub use ids::{
     AttributeEdgeId, AttributeNodeId, ChainId, DirectedEdge, EdgeId, FaceId, JointId, LoopId, NONE, NodeId,
     SurfaceId,
 };
-pub use incomplete::AddError;
 pub use joint::{Joint, JointUse, Sheet, Side};
 pub use regions::{Crossing, FaceSide, Region, Regions, Sector};
 pub use split_all::{SplitError, SplitMap, SurfaceSplit};
-pub use split_face::{FaceSplit, SplitEdge, SplitFaceError};
+pub use edit::{FaceSplit, SplitEdge, SplitFaceError};
 pub use surface::{Star, Surface};
 pub use weld::Weld;
 

@@ -7,6 +7,7 @@ use glam::{DVec2, DVec3};
 use super::Editor;
 use super::delta::NodeValue;
 use super::euler::EulerError;
+use super::journal::Record;
 use super::operation::Operation;
 use crate::body::{
     AttributeEdge, AttributeEdgeId, AttributeError, AttributeNode, AttributeNodeId, Body, NONE, NodeId,
@@ -139,24 +140,24 @@ impl Editor {
             }
         }
         let moves = self.body.moved_together(surface, nodes)?;
-        self.move_all(&moves, &|| Operation::MoveNodes { surface, nodes: nodes.to_vec() });
+        self.move_all(&moves, Operation::MoveNodes { surface, nodes: nodes.to_vec() });
         Ok(())
     }
 
-    fn move_all(&mut self, moves: &[Vec<(u32, DVec3)>], operation: &dyn Fn() -> Operation) {
-        let done: Result<(), std::convert::Infallible> = self.transaction(|editor| {
-            let mut operation = Some(operation);
-            for (i, moves) in moves.iter().enumerate().filter(|(_, m)| !m.is_empty()) {
-                editor.record_part(SurfaceId(i as u32), operation.take(), |r| {
-                    for &(v, position) in moves {
-                        let value = NodeValue { position, ..NodeValue::of(r.surface(), v) };
-                        r.set_node(v, value);
-                    }
-                });
-            }
-            Ok(())
-        });
-        let Ok(()) = done;
+    fn move_all(&mut self, moves: &[Vec<(u32, DVec3)>], operation: Operation) {
+        let mut deltas = Vec::new();
+        for (i, moves) in moves.iter().enumerate().filter(|(_, m)| !m.is_empty()) {
+            let (_, delta) = self.change(SurfaceId(i as u32), |r| {
+                for &(v, position) in moves {
+                    let value = NodeValue { position, ..NodeValue::of(r.surface(), v) };
+                    r.set_node(v, value);
+                }
+            });
+            deltas.push(delta);
+        }
+        if !deltas.is_empty() {
+            self.log(Record::Deltas { operation: Box::new(operation), deltas, stars_kept: true });
+        }
     }
 
     /// Keeps the present positions of a surface as its backup. O(nodes).
@@ -185,7 +186,7 @@ impl Editor {
             nodes.push((node, place));
         }
         let moves = self.body.moved_together(surface, &nodes)?;
-        self.move_all(&moves, &|| Operation::RestoreBackup { surface });
+        self.move_all(&moves, Operation::RestoreBackup { surface });
         Ok(())
     }
 
@@ -235,11 +236,7 @@ impl Editor {
         node: AttributeNode,
         operation: impl Fn() -> Operation,
     ) -> Result<AttributeNodeId, EulerError> {
-        let s = self.body.surfaces.get(surface.index()).ok_or(EulerError::NoSurface(surface))?;
-        let mut trial = Trial::of(s);
-        let made = trial.node(s, node)?;
-        self.record_layer(surface, operation, |r| r.change_attributes(|s| trial.put(s)));
-        Ok(made)
+        self.change_attributes(surface, operation, |s| s.add_attribute_node(node))
     }
 
     /// Removes the last attribute node. Inverse: [`Editor::add_attribute_node`].
@@ -298,11 +295,7 @@ impl Editor {
         line: AttributeEdge,
         operation: impl Fn() -> Operation,
     ) -> Result<AttributeEdgeId, EulerError> {
-        let s = self.body.surfaces.get(surface.index()).ok_or(EulerError::NoSurface(surface))?;
-        let mut trial = Trial::of(s);
-        let made = trial.line(s, line)?;
-        self.record_layer(surface, operation, |r| r.change_attributes(|s| trial.put(s)));
-        Ok(made)
+        self.change_attributes(surface, operation, |s| s.add_attribute_edge(line))
     }
 
     /// Removes the last attribute edge; its nodes stay. Inverse: [`Editor::add_attribute_edge`].
@@ -349,17 +342,37 @@ impl Editor {
         nodes: &[AttributeNode],
         lines: &[AttributeEdge],
     ) -> Result<(), EulerError> {
-        let s = self.body.surfaces.get(surface.index()).ok_or(EulerError::NoSurface(surface))?;
-        let mut trial = Trial { nodes: Vec::new(), lines: Vec::new() };
-        for &node in nodes {
-            trial.node(s, node)?;
-        }
-        for line in lines {
-            trial.line(s, line.clone())?;
-        }
         let operation =
             || Operation::SetAttributes { surface, nodes: nodes.to_vec(), lines: lines.to_vec() };
-        self.record_layer(surface, operation, |r| r.change_attributes(|s| trial.put(s)));
-        Ok(())
+        self.change_attributes(surface, operation, |s| {
+            s.attribute_nodes.clear();
+            s.attribute_edges.clear();
+            for &node in nodes {
+                s.add_attribute_node(node)?;
+            }
+            for line in lines {
+                s.add_attribute_edge(line.clone())?;
+            }
+            Ok(())
+        })
+    }
+
+    /// Carries out a change of attributes; where it fails half-way nothing is changed.
+    fn change_attributes<T>(
+        &mut self,
+        surface: SurfaceId,
+        operation: impl FnOnce() -> Operation,
+        change: impl FnOnce(&mut Surface) -> Result<T, AttributeError>,
+    ) -> Result<T, EulerError> {
+        self.body.surfaces.get(surface.index()).ok_or(EulerError::NoSurface(surface))?;
+        let mut made = Err(AttributeError::NoHost);
+        let ((), mut delta) = self.change(surface, |r| r.change_attributes(|s| made = change(s)));
+        if made.is_err() {
+            delta.exchange(&mut self.body);
+        } else {
+            let operation = Box::new(operation());
+            self.log(Record::Deltas { operation, deltas: vec![delta], stars_kept: true });
+        }
+        Ok(made?)
     }
 }

@@ -1,8 +1,12 @@
 //! Operators that change most of a body: the parts that changed are kept whole.
 
+use glam::DVec3;
+
+use super::Editor;
+use super::operation::Operation;
 use crate::body::joint::Joint;
 use crate::body::slots::Slots;
-use crate::body::{Body, Surface};
+use crate::body::{Body, Compaction, SplitError, SplitMap, Surface};
 
 /// Surfaces and joints that are *not* in the body now: those of before, or, once taken back, those of after.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,5 +41,29 @@ impl Whole {
     /// Surfaces that it changes.
     pub(super) fn surfaces(&self) -> impl Iterator<Item = usize> + '_ {
         self.surfaces.iter().map(|(i, _)| *i as usize)
+    }
+}
+
+impl Editor {
+    /// Splits every face into four ([`Body::split_all`]).
+    ///
+    /// # Errors
+    /// As [`Body::split_all`]. O(faces).
+    pub fn split_all(&mut self, midpoints: Option<&[Vec<DVec3>]>) -> Result<SplitMap, SplitError> {
+        let mut next = self.body.clone();
+        let map = next.split_all(midpoints)?;
+        self.replace(next, || Operation::SplitAll { midpoints: midpoints.map(<[_]>::to_vec) });
+        Ok(map)
+    }
+
+    /// Closes the gaps that operators left ([`Body::compact`]); nothing is logged where there are none. O(size).
+    pub fn compact(&mut self) -> Compaction {
+        if self.body.is_compact() {
+            return self.body.compact();
+        }
+        let mut next = self.body.clone();
+        let map = next.compact();
+        self.replace(next, || Operation::Compact);
+        map
     }
 }

@@ -23,14 +23,14 @@ impl Surface {
         for i in 0..3 {
             let node = NodeId(self.faces[face.index()][i]);
             // Backwards round the node to the boundary edge that ends there.
-            let (mut f, mut into) = (face, self.face_side(face, (i + 2) % 3));
+            let mut into = self.face_side(face, (i + 2) % 3);
             let start = into;
             loop {
                 let beyond = self.face_left(into.flipped());
                 if beyond == NONE {
                     break;
                 }
-                f = FaceId(beyond);
+                let f = FaceId(beyond);
                 let Some(k) = self.faces[f.index()].iter().position(|&v| v == node.0) else { break };
                 into = self.face_side(f, (k + 2) % 3);
                 if into == start {

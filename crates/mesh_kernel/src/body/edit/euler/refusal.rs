@@ -254,6 +254,14 @@ pub enum EulerError {
         /// The attribute edge.
         line: AttributeEdgeId,
     },
+    /// No such attribute edge.
+    #[error("surface {surface} has no attribute edge {line}")]
+    NoAttributeEdge {
+        /// Surface.
+        surface: SurfaceId,
+        /// The attribute edge.
+        line: AttributeEdgeId,
+    },
     /// Attributes are removed from the end.
     #[error(
         "surface {surface}: attribute node {node} is not the last, which is {last}; remove those after it first, or set \
