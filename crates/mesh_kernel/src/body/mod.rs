@@ -44,9 +44,11 @@ mod ids;
 mod incomplete;
 mod joint;
 mod mesh_joints;
+mod pairing;
 mod radial;
 mod radial_order;
 mod regions;
+mod sectors;
 mod shells;
 mod slots;
 mod split_all;
@@ -67,7 +69,11 @@ pub use ids::{
     SurfaceId,
 };
 pub use joint::{Joint, JointUse, Sheet, Side};
-pub use regions::{Crossing, FaceSide, Region, Regions, Sector};
+pub use pairing::{
+    Contact, EdgePairings, Fan, FanKind, NodeFans, Pairing, PairingError, Resolution, Through,
+};
+pub use regions::{FaceSide, FaceUse, Region, Regions};
+pub use sectors::{Crossing, EdgeSector, Sector};
 pub use split_all::{SplitError, SplitMap, SurfaceSplit};
 pub use edit::{FaceSplit, SplitEdge, SplitFaceError};
 pub use surface::{Star, Surface};
