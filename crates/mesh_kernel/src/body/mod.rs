@@ -35,7 +35,6 @@ mod carry;
 mod chain;
 mod check;
 mod compact;
-
 mod counts;
 pub mod edit;
 mod file;
@@ -54,7 +53,6 @@ mod sectors;
 mod shells;
 mod slots;
 mod split_all;
-mod split_face;
 mod surface;
 mod weld;
 mod welded;
@@ -72,7 +70,6 @@ pub use ids::{
     AttributeEdgeId, AttributeNodeId, ChainId, DirectedEdge, EdgeId, FaceId, JointId, LoopId, NONE, NodeId,
     SurfaceId,
 };
-pub use incomplete::AddError;
 pub use joint::{Joint, JointUse, Sheet, Side};
 pub use pairing::{
     Contact, EdgePairings, Fan, FanKind, NodeFans, Pairing, PairingError, Resolution, Through,
@@ -80,7 +77,7 @@ pub use pairing::{
 pub use regions::{FaceSide, FaceUse, Region, Regions};
 pub use sectors::{Crossing, EdgeSector, Sector};
 pub use split_all::{SplitError, SplitMap, SurfaceSplit};
-pub use split_face::{FaceSplit, SplitEdge, SplitFaceError};
+pub use edit::{FaceSplit, SplitEdge, SplitFaceError};
 pub use surface::{Star, Surface};
 pub use weld::Weld;
 
