@@ -35,7 +35,6 @@ mod carry;
 mod chain;
 mod check;
 mod compact;
-
 mod counts;
 pub mod edit;
 mod file;
@@ -46,13 +45,14 @@ mod ids;
 mod incomplete;
 mod joint;
 mod mesh_joints;
+mod pairing;
 mod radial;
 mod radial_order;
 mod regions;
+mod sectors;
 mod shells;
 mod slots;
 mod split_all;
-mod split_face;
 mod surface;
 mod weld;
 mod welded;
@@ -70,11 +70,14 @@ pub use ids::{
     AttributeEdgeId, AttributeNodeId, ChainId, DirectedEdge, EdgeId, FaceId, JointId, LoopId, NONE, NodeId,
     SurfaceId,
 };
-pub use incomplete::AddError;
 pub use joint::{Joint, JointUse, Sheet, Side};
-pub use regions::{Crossing, FaceSide, Region, Regions, Sector};
+pub use pairing::{
+    Contact, EdgePairings, Fan, FanKind, NodeFans, Pairing, PairingError, Resolution, Through,
+};
+pub use regions::{FaceSide, FaceUse, Region, Regions};
+pub use sectors::{Crossing, EdgeSector, Sector};
 pub use split_all::{SplitError, SplitMap, SurfaceSplit};
-pub use split_face::{FaceSplit, SplitEdge, SplitFaceError};
+pub use edit::{FaceSplit, SplitEdge, SplitFaceError};
 pub use surface::{Star, Surface};
 pub use weld::Weld;
 

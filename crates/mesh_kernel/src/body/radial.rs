@@ -12,10 +12,26 @@ fn coord(p: DVec3) -> Coord3D<f64> {
     Coord3D { x: p.x, y: p.y, z: p.z }
 }
 
+/// Coordinates between these (largest of all) keep products of three, with all their digits, clear of what a double holds.
+const SMALL: f64 = 1e-50;
+const LARGE: f64 = 1e50;
+
+/// The points times a power of two, which changes no digit, so that predicates neither overflow nor underflow.
+fn scaled<const N: usize>(points: [DVec3; N]) -> [DVec3; N] {
+    let largest = points.iter().fold(0.0f64, |m, p| m.max(p.abs().max_element()));
+    if (SMALL..=LARGE).contains(&largest) || largest == 0.0 || !largest.is_finite() {
+        return points;
+    }
+    // In two steps, for no double holds the inverse of the smallest.
+    let half = (-0.5 * largest.log2()).round().exp2();
+    points.map(|p| p * half * half)
+}
+
 /// Greater than zero where turning from `p` to `q` about the axis from `a` to `b`, as the right hand's fingers turn,
 /// takes less than half a turn; zero where all four points are coplanar. Exact.
 pub(crate) fn turn(a: DVec3, b: DVec3, p: DVec3, q: DVec3) -> f64 {
-    -orient3d(coord(a), coord(b), coord(p), coord(q))
+    let [a, b, p, q] = scaled([a, b, p, q]).map(coord);
+    -orient3d(a, b, p, q)
 }
 
 fn drop_axis(p: DVec3, axis: usize) -> Coord<f64> {
@@ -28,11 +44,13 @@ fn drop_axis(p: DVec3, axis: usize) -> Coord<f64> {
 
 /// Whether `a`, `b`, `p` lie on one line. Exact.
 pub(crate) fn collinear(a: DVec3, b: DVec3, p: DVec3) -> bool {
+    let [a, b, p] = scaled([a, b, p]);
     (0..3).all(|axis| orient2d(drop_axis(a, axis), drop_axis(b, axis), drop_axis(p, axis)) == 0.0)
 }
 
 /// For coplanar points: whether `p` and `q` lie on the same side of the line through `a` and `b`. Exact.
 fn same_side(a: DVec3, b: DVec3, p: DVec3, q: DVec3) -> bool {
+    let [a, b, p, q] = scaled([a, b, p, q]);
     for axis in 0..3 {
         let [a, b, p, q] = [a, b, p, q].map(|x| drop_axis(x, axis));
         let of_p = orient2d(a, b, p);
@@ -43,19 +61,31 @@ fn same_side(a: DVec3, b: DVec3, p: DVec3, q: DVec3) -> bool {
     false
 }
 
-const NOWHERE: u8 = 4;
+/// Where a sheet lies seen from another, turning by the right hand about an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Quarter {
+    /// In the very same direction.
+    Same,
+    /// Within the first half turn.
+    First,
+    /// Exactly opposite.
+    Opposite,
+    /// Within the second half turn.
+    Second,
+    /// On the axis: degenerate.
+    Nowhere,
+}
 
-/// Where `q` lies seen from `p`, turning by the right hand about `a` → `b`: 0 at `p` itself, 1 within the first half
-/// turn, 2 opposite, 3 within the second half, 4 nowhere (on the axis).
-fn quarter(a: DVec3, b: DVec3, p: DVec3, q: DVec3) -> u8 {
+/// Where `q` lies seen from `p`, which is not on the axis, turning about `a` → `b`. Exact.
+pub(crate) fn quarter(a: DVec3, b: DVec3, p: DVec3, q: DVec3) -> Quarter {
     if collinear(a, b, q) {
-        return NOWHERE;
+        return Quarter::Nowhere;
     }
     match turn(a, b, p, q) {
-        t if t > 0.0 => 1,
-        t if t < 0.0 => 3,
-        _ if same_side(a, b, p, q) => 0,
-        _ => 2,
+        t if t > 0.0 => Quarter::First,
+        t if t < 0.0 => Quarter::Second,
+        _ if same_side(a, b, p, q) => Quarter::Same,
+        _ => Quarter::Opposite,
     }
 }
 
@@ -65,11 +95,11 @@ fn quarter(a: DVec3, b: DVec3, p: DVec3, q: DVec3) -> u8 {
 /// `None` where `a` and `b` coincide or every sheet is degenerate. O(k log k) exact predicates.
 pub(crate) fn radial_order(a: DVec3, b: DVec3, apexes: &[DVec3]) -> Option<Radial> {
     let &first = apexes.iter().find(|&&p| !collinear(a, b, p))?;
-    let mut order: Vec<(u8, usize)> =
+    let mut order: Vec<(Quarter, usize)> =
         apexes.iter().enumerate().map(|(i, &q)| (quarter(a, b, first, q), i)).collect();
-    let compare = |x: &(u8, usize), y: &(u8, usize)| {
+    let compare = |x: &(Quarter, usize), y: &(Quarter, usize)| {
         x.0.cmp(&y.0).then_with(|| match x.0 {
-            1 | 3 => match turn(a, b, apexes[x.1], apexes[y.1]) {
+            Quarter::First | Quarter::Second => match turn(a, b, apexes[x.1], apexes[y.1]) {
                 t if t > 0.0 => Ordering::Less,
                 t if t < 0.0 => Ordering::Greater,
                 _ => Ordering::Equal,
@@ -84,7 +114,7 @@ pub(crate) fn radial_order(a: DVec3, b: DVec3, apexes: &[DVec3]) -> Option<Radia
         if k > 0 && compare(&order[k - 1], x) != Ordering::Equal {
             rank += 1;
         }
-        ranks[x.1] = (x.0 != NOWHERE).then_some(rank);
+        ranks[x.1] = (x.0 != Quarter::Nowhere).then_some(rank);
     }
     Some(Radial { order: order.into_iter().map(|(_, i)| i as u32).collect(), ranks })
 }
@@ -100,12 +130,6 @@ pub(crate) struct Radial {
 }
 
 impl Radial {
-    /// Whether geometry alone does not order the sheets.
-    pub(crate) fn tied(&self) -> bool {
-        let highest = self.ranks.iter().flatten().max().map_or(0, |r| *r as usize + 1);
-        highest < self.ranks.len()
-    }
-
     /// Whether a cyclic order of sheets, given by their indices, goes round the axis once, clockwise. Degenerate sheets
     /// may stand anywhere.
     pub(crate) fn agrees(&self, order: &[u32]) -> bool {
@@ -126,7 +150,7 @@ mod tests {
         let apexes = [DVec3::X, DVec3::NEG_Y, DVec3::NEG_X, DVec3::Y];
         let radial = radial_order(DVec3::ZERO, DVec3::Z, &apexes).unwrap();
         assert_eq!(radial.order, [0, 3, 2, 1]);
-        assert!(!radial.tied());
+        assert_eq!(radial.ranks, [Some(0), Some(3), Some(2), Some(1)]);
         let radial = radial_order(DVec3::Z, DVec3::ZERO, &apexes).unwrap();
         assert_eq!(radial.order, [0, 1, 2, 3]);
     }
@@ -137,7 +161,7 @@ mod tests {
         let near = [DVec3::new(1.0, 0.0, 0.5), DVec3::new(1.0, ulp, 0.3), DVec3::new(1.0, -ulp, 0.7)];
         let radial = radial_order(DVec3::ZERO, DVec3::Z, &near).unwrap();
         assert_eq!(radial.order, [0, 1, 2]);
-        assert!(!radial.tied());
+        assert_eq!(radial.ranks, [Some(0), Some(1), Some(2)]);
     }
 
     #[test]
@@ -145,7 +169,7 @@ mod tests {
         let apexes = [DVec3::Z * 3.0, DVec3::Y, DVec3::X, DVec3::Y * 2.0];
         let radial = radial_order(DVec3::ZERO, DVec3::Z, &apexes).unwrap();
         assert_eq!(radial.order, [1, 3, 2, 0]);
-        assert!(radial.tied());
+        assert_eq!(radial.ranks, [None, Some(0), Some(1), Some(0)]);
         assert!(radial.agrees(&[2, 0, 3, 1]) && radial.agrees(&[1, 2, 3]) && radial.agrees(&[2, 3, 1, 0]));
         assert!(radial_order(DVec3::ZERO, DVec3::Z, &[DVec3::Z]).is_none());
         let apexes = [DVec3::X, DVec3::Y, DVec3::NEG_X];

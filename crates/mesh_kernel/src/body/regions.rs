@@ -1,12 +1,11 @@
-//! Regions of space that a body separates, the shells that bound them, and sectors about joints.
+//! Regions of space that a body separates, and the shells that bound them.
 
 use std::f64::consts::TAU;
 
 use glam::DVec3;
 
 use super::Body;
-use super::ids::{FaceId, JointId, SurfaceId};
-use super::joint::{Sheet, Side};
+use super::ids::{FaceId, SurfaceId};
 use super::shells::Shells;
 use super::welded::{FaceNumbers, Welded};
 
@@ -17,6 +16,17 @@ pub enum FaceSide {
     Front,
     /// Behind.
     Back,
+}
+
+/// A side of a face (Lee & Kim: FACE-USE).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct FaceUse {
+    /// Surface.
+    pub surface: SurfaceId,
+    /// Face.
+    pub face: FaceId,
+    /// Its side.
+    pub side: FaceSide,
 }
 
 /// One connected region of the space around and within a body.
@@ -53,26 +63,35 @@ impl Regions {
     pub fn region(&self, surface: SurfaceId, face: FaceId, side: FaceSide) -> u32 {
         self.region_of_shell[self.shell(surface, face, side) as usize]
     }
-}
 
-/// What one meets on the way round a joint, where faces bound material that lies behind them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Crossing {
-    /// Into material.
-    Enters,
-    /// Out of it.
-    Leaves,
-}
+    /// Number of shells.
+    pub fn shell_count(&self) -> usize {
+        self.region_of_shell.len()
+    }
 
-/// The wedge between two sheets that follow each other about a joint.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sector {
-    /// Where it begins, clockwise.
-    pub from: Sheet,
-    /// Where it ends.
-    pub to: Sheet,
-    /// Angle at the edge asked for, in radians, 0 to 2π.
-    pub angle: f64,
+    /// The face-uses that bound a region, in order of surfaces and faces, front before back; a face that stands within the
+    /// region has both. Empty where there is no such region. O(faces).
+    pub fn faces_of(&self, region: u32) -> Vec<FaceUse> {
+        self.uses_where(|shell| self.region_of_shell[shell as usize] == region)
+    }
+
+    /// The face-uses of a shell, in order of surfaces and faces, front before back. O(faces).
+    pub fn faces_of_shell(&self, shell: u32) -> Vec<FaceUse> {
+        self.uses_where(|s| s == shell)
+    }
+
+    fn uses_where(&self, wanted: impl Fn(u32) -> bool) -> Vec<FaceUse> {
+        let mut uses = Vec::new();
+        for f in 0..self.faces.count() {
+            let (surface, face) = self.faces.face(f);
+            for (k, side) in [FaceSide::Front, FaceSide::Back].into_iter().enumerate() {
+                if wanted(self.shell_of_side[2 * f as usize + k]) {
+                    uses.push(FaceUse { surface, face, side });
+                }
+            }
+        }
+        uses
+    }
 }
 
 impl Body {
@@ -141,52 +160,6 @@ impl Body {
                 region_of_shell[outer[part]] = region_of_shell[shell];
             }
         }
-    }
-
-    /// What one who goes clockwise round a joint crosses, if faces bound material behind them. In a sound solid the two
-    /// alternate; two [`Crossing::Enters`] in a row are material within material (Stroud & Nagy, fig. 6.5).
-    pub fn crossings_about(&self, joint: JointId) -> Vec<Crossing> {
-        let crossing = |s: &Sheet| match s.side {
-            Side::Left => Crossing::Leaves,
-            Side::Right => Crossing::Enters,
-        };
-        self.joint(joint).radial().iter().map(crossing).collect()
-    }
-
-    /// Whether entering and leaving material alternate round a joint.
-    pub fn alternates(&self, joint: JointId) -> bool {
-        let all = self.crossings_about(joint);
-        all.iter().zip(all.iter().cycle().skip(1)).all(|(a, b)| a != b)
-    }
-
-    /// The wedges about a joint in clockwise order, with their angles at its edge `k`. A single sheet has one wedge of a
-    /// full turn. O(sheets).
-    pub fn sectors(&self, joint: JointId, k: usize) -> Vec<Sector> {
-        let j = self.joint(joint);
-        let sheets = self.sheets_at(joint, k);
-        let axis = self.joint_edge(joint, 0, k);
-        let Some(first) = j.uses().first() else { return Vec::new() };
-        let surface = self.surface(first.surface);
-        let [a, b] = surface.ends(axis).map(|v| surface.positions[v.index()]);
-        let direction = (b - a).normalize_or_zero();
-        let out = |sheet: &Sheet| {
-            let face = sheets.iter().find(|(s, _)| s == sheet).map(|(_, f)| *f)?;
-            let s = self.surface(j.uses()[sheet.use_index as usize].surface);
-            let edge = self.joint_edge(joint, sheet.use_index as usize, k).edge().0;
-            let p = s.positions[s.apex(face, edge) as usize] - a;
-            Some(p - direction * p.dot(direction))
-        };
-        let next = j.radial().iter().cycle().skip(1);
-        j.radial()
-            .iter()
-            .zip(next)
-            .filter_map(|(from, to)| {
-                let (p, q) = (out(from)?, out(to)?);
-                let angle = direction.dot(p.cross(q)).atan2(p.dot(q)).rem_euclid(TAU);
-                let angle = if from == to { TAU } else { angle };
-                Some(Sector { from: *from, to: *to, angle })
-            })
-            .collect()
     }
 }
 

@@ -24,7 +24,7 @@ pub(crate) struct Shells {
 }
 
 /// The side of a use that looks onwards in the radial order, and the one that looks back.
-fn onwards(u: FaceUse) -> [u32; 2] {
+pub(crate) fn onwards(u: FaceUse) -> [u32; 2] {
     // A face that runs along the axis has its normal onwards (right hand).
     let normal = 2 * u.face;
     if u.along { [normal, normal + 1] } else { [normal + 1, normal] }

@@ -1,7 +1,7 @@
 //! The body welded to one complex of numbered nodes, edges and faces: what counts and checks run on.
 
 use super::Body;
-use super::ids::{JointId, NONE, SurfaceId};
+use super::ids::{FaceId, JointId, NONE, SurfaceId};
 use super::joint::Side;
 use super::surface::Surface;
 use super::weld::Weld;
@@ -50,6 +50,24 @@ impl FaceNumbers {
     pub(crate) fn number(&self, surface: SurfaceId, face: u32) -> u32 {
         let free = &self.free[surface.index()];
         self.first[surface.index()] + face - free.partition_point(|&f| f < face) as u32
+    }
+
+    /// Surface and face of a number. O(log surfaces + free numbers before the face).
+    pub(crate) fn face(&self, number: u32) -> (SurfaceId, FaceId) {
+        let s = self.first.partition_point(|&first| first <= number) - 1;
+        let mut face = number - self.first[s];
+        for &free in &self.free[s] {
+            if free > face {
+                break;
+            }
+            face += 1;
+        }
+        (SurfaceId(s as u32), FaceId(face))
+    }
+
+    /// How many faces there are.
+    pub(crate) fn count(&self) -> u32 {
+        *self.first.last().unwrap_or(&0)
     }
 }
 
@@ -122,7 +140,7 @@ impl Welded {
     }
 
     pub(crate) fn face_count(&self) -> u32 {
-        *self.faces.first.last().unwrap_or(&0)
+        self.faces.count()
     }
 
     /// Uses of an edge in radial order. A broken joint may leave uses without a face; they are left out here.
