@@ -8,6 +8,7 @@ mod delta;
 pub mod euler;
 mod joints;
 mod journal;
+mod journal_file;
 mod layers;
 mod loops;
 mod minimise;
@@ -20,6 +21,7 @@ mod whole;
 
 pub use euler::{EdgeRole, EulerError, EulerOperator, FaceRole};
 pub use joints::JointError;
+pub use journal_file::{JOURNAL_FILE_VERSION, JournalFile, ReplayError};
 pub use layers::LayerError;
 pub use minimise::{minimise, minimise_with};
 pub use operation::{Operation, Outcome, Refusal};
