@@ -110,11 +110,16 @@ impl fmt::Display for BodyState {
     }
 }
 
-/// What of an earlier report tells whether it is still good.
-#[derive(Deserialize)]
-struct Earlier {
-    fingerprint: String,
-    warnings: Vec<String>,
+/// How many warnings an earlier run's `report.json` has, where it is of the inputs with that fingerprint; `None` for
+/// any other bytes.
+pub fn finished(report: &[u8], fingerprint: &str) -> Option<usize> {
+    #[derive(Deserialize)]
+    struct Earlier {
+        fingerprint: String,
+        warnings: Vec<String>,
+    }
+    let earlier: Earlier = serde_json::from_slice(report).ok()?;
+    (earlier.fingerprint == fingerprint).then_some(earlier.warnings.len())
 }
 
 /// Rebuilds `template` on every body of the shard, bodies in parallel, each into a folder of its own under `out`.
@@ -183,10 +188,9 @@ fn one(
         .text();
     if !options.again
         && let Ok(text) = std::fs::read(folder.join("report.json"))
-        && let Ok(earlier) = serde_json::from_slice::<Earlier>(&text)
-        && earlier.fingerprint == fingerprint
+        && let Some(warnings) = finished(&text, &fingerprint)
     {
-        return Ok((BodyState::Kept, earlier.warnings.len()));
+        return Ok((BodyState::Kept, warnings));
     }
     let mesh = files::parse(format, &bytes).map_err(|e| e.to_string())?;
     let name = file.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();

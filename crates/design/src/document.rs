@@ -85,6 +85,18 @@ pub enum DocumentError {
         /// Nodes of the body.
         nodes: usize,
     },
+    /// The way back to the file's frame.
+    #[error(
+        "the body's placement leads nowhere: its scale must be above zero and its rotation a rotation (three orthogonal \
+         unit vectors, right-handed)"
+    )]
+    Placement,
+    /// The number of splits.
+    #[error("{levels} splits are too many; at most {}", template::format::DEEPEST)]
+    Levels {
+        /// The number in the file.
+        levels: u8,
+    },
 }
 
 impl Document {
@@ -148,6 +160,16 @@ impl Document {
             if let Some(&node) = corners.iter().find(|v| **v as usize >= nodes) {
                 return Err(DocumentError::Index { face, node, nodes });
             }
+        }
+        if let Some(levels) = document.levels.filter(|levels| *levels > template::format::DEEPEST) {
+            return Err(DocumentError::Levels { levels });
+        }
+        let placement = document.placement();
+        // Not a number fails every comparison.
+        let turned = placement.rotation * placement.rotation.transpose() - DMat3::IDENTITY;
+        let rigid = turned.to_cols_array().iter().all(|v| v.abs() < 1e-6) && placement.rotation.determinant() > 0.0;
+        if !(placement.scale > 0.0 && rigid) {
+            return Err(DocumentError::Placement);
         }
         document.template()?;
         Ok(document)

@@ -48,7 +48,7 @@ impl ModelInfo {
         let boundary_loops = boundary_curves(&body);
         Ok(Self {
             surfaces: body.surfaces().len(),
-            joints: body.joints().len(),
+            joints: body.joint_count(),
             nodes: counts.v,
             edges: counts.e,
             faces: counts.f,

@@ -43,9 +43,7 @@ fn bodies(place: &Path) -> Result<Vec<PathBuf>, Failure> {
         found.sort();
     } else {
         let text = std::fs::read_to_string(place).map_err(unreadable)?;
-        let folder = place.parent().unwrap_or(Path::new(""));
-        let lines = text.lines().map(str::trim).filter(|l| !l.is_empty() && !l.starts_with('#'));
-        found.extend(lines.map(|line| folder.join(line)));
+        found = listed(&text, place.parent().unwrap_or(Path::new("")));
     }
     if found.is_empty() {
         return Err(Failure::new(format!("{} names no bodies", place.display())).remedy(
@@ -55,8 +53,14 @@ fn bodies(place: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(found)
 }
 
+/// The paths in a list, relative to its folder; empty lines and those with `#` are passed over.
+pub(super) fn listed(text: &str, folder: &Path) -> Vec<PathBuf> {
+    let lines = text.lines().map(str::trim).filter(|l| !l.is_empty() && !l.starts_with('#'));
+    lines.map(|line| folder.join(line)).collect()
+}
+
 /// `I/N`.
-fn shard(text: &str) -> Result<Shard, Failure> {
+pub(super) fn shard(text: &str) -> Result<Shard, Failure> {
     text.split_once('/')
         .and_then(|(i, n)| Shard::new(i.trim().parse().ok()?, n.trim().parse().ok()?))
         .ok_or_else(|| Failure::words(format!("--shard is I/N with 1 ≤ I ≤ N, such as 2/5, not {text:?}")))

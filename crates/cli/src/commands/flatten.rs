@@ -126,7 +126,7 @@ fn flat_mesh(pattern: &Pattern) -> TriMesh {
 }
 
 /// `3-17-9;4-5`: chains of node numbers, counted from 1.
-fn chains(text: &str) -> Result<Vec<Vec<u32>>, Failure> {
+pub(super) fn chains(text: &str) -> Result<Vec<Vec<u32>>, Failure> {
     let bad = || {
         Failure::words(format!(
             "--cut takes chains of node numbers from 1, such as \"3-17-9;4-5\", not {text:?}"

@@ -5,6 +5,8 @@ pub(crate) mod check;
 pub(crate) mod features;
 pub(crate) mod flatten;
 pub(crate) mod form;
+#[cfg(test)]
+mod fuzz;
 pub(crate) mod info;
 pub(crate) mod regenerate;
 pub(crate) mod render;

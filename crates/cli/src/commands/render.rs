@@ -57,7 +57,7 @@ pub(crate) fn run(words: &Render, speech: &Speech) -> Result<(), Failure> {
 }
 
 /// `WxH` in pixels.
-fn size(text: &str) -> Result<(u32, u32), Failure> {
+pub(super) fn size(text: &str) -> Result<(u32, u32), Failure> {
     let parts =
         text.split_once(['x', 'X']).and_then(|(w, h)| Some((w.trim().parse().ok()?, h.trim().parse().ok()?)));
     match parts {
@@ -81,5 +81,9 @@ fn thickness(model: &Path) -> Result<Vec<f64>, Failure> {
     let path = model.with_extension("thickness.json");
     let text = std::fs::read_to_string(&path)
         .map_err(|e| Failure::new(format!("cannot read the thicknesses {}: {e}", path.display())))?;
-    serde_json::from_str(&text).map_err(|e| Failure::from(e).about(&path))
+    thicknesses(&text).map_err(|e| e.about(&path))
+}
+
+pub(super) fn thicknesses(text: &str) -> Result<Vec<f64>, Failure> {
+    Ok(serde_json::from_str(text)?)
 }

@@ -16,9 +16,18 @@ impl EdgeIndex {
     pub fn new(nodes: usize, edges: &[[u32; 2]]) -> Self {
         let mut index = Self { head: vec![NONE; nodes], link: Vec::with_capacity(edges.len()) };
         for &[a, b] in edges {
-            index.push(a, b);
+            if a == NONE {
+                index.push_none();
+            } else {
+                index.push(a, b);
+            }
         }
         index
+    }
+
+    /// Leaves out an edge whose number is free.
+    pub(super) fn push_none(&mut self) {
+        self.link.push([NONE; 2]);
     }
 
     #[inline]

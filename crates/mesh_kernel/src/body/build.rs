@@ -246,7 +246,7 @@ impl Body {
 
     /// Loops, chains, joints and radial orders for surfaces that have their edges.
     pub(crate) fn assemble(surfaces: Vec<Surface>, joints: Vec<RunJoint>) -> Result<Self, BuildError> {
-        let mut body = Body { surfaces, joints: Vec::with_capacity(joints.len()) };
+        let mut body = Body { surfaces, joints: Vec::with_capacity(joints.len()), ..Body::default() };
         let labels: Vec<JointLabel> =
             joints.iter().enumerate().map(|(index, j)| JointLabel { index, name: j.name.clone() }).collect();
         let cycles: Vec<_> = body.surfaces.iter().map(Surface::boundary_cycles).collect();

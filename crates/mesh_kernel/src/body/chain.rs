@@ -1,6 +1,6 @@
 //! Chains of edges and boundary loops.
 
-use super::ids::{ChainId, DirectedEdge, JointId, LoopId, NodeId};
+use super::ids::{ChainId, DirectedEdge, JointId, LoopId, NONE, NodeId};
 
 /// A run of edges of one surface (MESHEDGE).
 ///
@@ -17,6 +17,13 @@ pub struct Chain {
 }
 
 impl Chain {
+    /// What stands under a free number.
+    pub(crate) const FREE: Self = Self { start: NodeId(NONE), edges: Vec::new(), on_loop: None, joint: None };
+
+    pub(crate) fn is_free(&self) -> bool {
+        self.start.0 == NONE
+    }
+
     /// The first node.
     pub fn start(&self) -> NodeId {
         self.start

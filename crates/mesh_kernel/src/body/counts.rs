@@ -1,10 +1,11 @@
 //! Counts and the Euler–Poincaré identity; enclosed volume.
 
 use super::Body;
-use super::complex::Complex;
 use super::homology::ranks;
+use super::ids::FaceId;
 use super::shells::Shells;
 use super::surface::Surface;
+use super::welded::Welded;
 
 /// Counts of the body as one complex, nodes and edges on joints counted once.
 ///
@@ -47,13 +48,13 @@ impl Body {
     /// Counts the body as one complex; see [`Counts`]. O(faces), and for bodies with very many patches what the
     /// elimination of their joints costs.
     pub fn counts(&self) -> Counts {
-        counts_of(&Complex::new(self))
+        counts_of(&Welded::new(self))
     }
 
     /// Volume that every void encloses, in mm³, ordered by the first face that bounds it; empty where nothing is
     /// enclosed. A part that floats in a void is not taken off it. O(faces).
     pub fn void_volumes(&self) -> Vec<f64> {
-        let shells = Shells::new(&Complex::new(self));
+        let shells = Shells::new(&Welded::new(self));
         let volumes = shells.volumes(self);
         let mut outside = vec![false; shells.count];
         shells.outer(&volumes).into_iter().for_each(|s| outside[s] = true);
@@ -66,7 +67,7 @@ impl Body {
     /// the divergence theorem, negative for a body turned inside out, with cavities taken off. Else it is the sum of all
     /// voids. O(faces).
     pub fn volume(&self) -> Option<f64> {
-        let complex = Complex::new(self);
+        let complex = Welded::new(self);
         if complex.face_count() == 0 || (0..complex.edges.len()).any(|e| complex.uses(e).len() == 1) {
             return None;
         }
@@ -76,15 +77,15 @@ impl Body {
             return Some(self.void_volumes().iter().sum());
         }
         let origin = self.surfaces.iter().find_map(|s| s.positions.first()).copied().unwrap_or_default();
-        let cone = |s: &Surface, face: &[u32; 3]| {
-            let [a, b, c] = face.map(|v| s.positions[v as usize] - origin);
+        let cone = |s: &Surface, face: FaceId| {
+            let [a, b, c] = s.corners(face).map(|p| p - origin);
             a.dot(b.cross(c)) / 6.0
         };
-        Some(self.surfaces.iter().map(|s| s.faces.iter().map(|f| cone(s, f)).sum::<f64>()).sum())
+        Some(self.surfaces.iter().map(|s| s.live_faces().map(|f| cone(s, f)).sum::<f64>()).sum())
     }
 }
 
-pub(crate) fn counts_of(complex: &Complex) -> Counts {
+pub(crate) fn counts_of(complex: &Welded) -> Counts {
     let ranks = ranks(complex);
     let (v, e, f) = (complex.weld.count as i64, complex.edges.len() as i64, i64::from(complex.face_count()));
     let mut nodes = super::weld::UnionFind::new(complex.weld.count);

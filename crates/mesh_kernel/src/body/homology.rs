@@ -6,8 +6,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::complex::Complex;
 use super::weld::UnionFind;
+use super::welded::Welded;
 
 /// Ranks of the boundary matrices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,7 +19,7 @@ pub(crate) struct Ranks {
 }
 
 /// Near O(faces) for bodies of few patches; the rest costs at most patches² · distinct joint edges.
-pub(crate) fn ranks(complex: &Complex) -> Ranks {
+pub(crate) fn ranks(complex: &Welded) -> Ranks {
     let mut nodes = UnionFind::new(complex.weld.count);
     let first = complex.edges.iter().filter(|[a, b]| nodes.union(*a, *b)).count() as u32;
 

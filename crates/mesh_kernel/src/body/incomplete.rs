@@ -206,20 +206,24 @@ impl Surface {
     }
 
     /// Forgets loops and the chains on no joint, which come last: chains of joints keep their numbers.
-    fn drop_loops(&mut self) {
-        let kept = self.chains.iter().position(|c| c.joint.is_none()).unwrap_or(self.chains.len());
-        debug_assert!(self.chains[kept..].iter().all(|c| c.joint.is_none()), "chains of joints come first");
-        for chain in self.chains.drain(kept..) {
+    pub(crate) fn drop_loops(&mut self) {
+        let last = self.chains.iter().rposition(|c| c.joint.is_some()).map_or(0, |i| i + 1);
+        let free = self.slots.chains.free().iter().max().map_or(0, |&i| i as usize + 1);
+        for chain in self.chains.drain(last.max(free)..) {
             for d in chain.edges {
                 self.edge_chain[d.edge().index()] = NO_CHAIN;
             }
         }
+        debug_assert!(
+            self.chains.iter().all(|c| c.joint.is_some() || c.is_free()),
+            "chains of joints come first"
+        );
         self.chains.iter_mut().for_each(|c| c.on_loop = None);
         self.loops.clear();
     }
 
     /// Finds boundary loops and cuts them at the chains of joints.
-    fn find_loops(&mut self) {
+    pub(crate) fn find_loops(&mut self) {
         for cycle in self.boundary_cycles() {
             make_loop(self, &cycle);
         }

@@ -34,7 +34,8 @@ mod build;
 mod carry;
 mod chain;
 mod check;
-mod complex;
+mod compact;
+
 mod counts;
 pub mod edit;
 mod free_boundary;
@@ -50,16 +51,19 @@ mod radial_order;
 mod regions;
 mod sectors;
 mod shells;
+mod slots;
 mod split_all;
 mod split_face;
 mod surface;
 mod weld;
+mod welded;
 
 pub use adjacency::EdgeIndex;
 pub use attribute::{AttributeEdge, AttributeError, AttributeNode};
 pub use build::{BuildError, ChainSpec, JOINT_SNAP, JointLabel, JointSpec, SurfaceSpec};
 pub use chain::{Chain, Loop};
 pub use check::Defect;
+pub use compact::{Compaction, SurfaceCompaction};
 pub use counts::Counts;
 pub use free_boundary::{BoundaryLine, FreeEdge};
 pub use ids::{
@@ -78,11 +82,15 @@ pub use split_face::{FaceSplit, SplitEdge, SplitFaceError};
 pub use surface::{Star, Surface};
 pub use weld::Weld;
 
+use slots::Slots;
+
 /// A complex of surfaces and the joints where they meet.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Body {
     pub(crate) surfaces: Vec<Surface>,
     pub(crate) joints: Vec<Joint>,
+    /// Free numbers of joints.
+    pub(crate) joint_slots: Slots,
 }
 
 impl Body {
@@ -112,13 +120,34 @@ impl Body {
     }
 
     /// The joints in order of their ids.
-    pub fn joints(&self) -> impl ExactSizeIterator<Item = (JointId, &Joint)> {
-        self.joints.iter().enumerate().map(|(i, j)| (JointId(i as u32), j))
+    pub fn joints(&self) -> impl Iterator<Item = (JointId, &Joint)> {
+        self.joints
+            .iter()
+            .enumerate()
+            .map(|(i, j)| (JointId(i as u32), j))
+            .filter(|(_, j)| !j.uses.is_empty())
     }
 
     /// The ids of the joints in order.
-    pub fn joint_ids(&self) -> impl ExactSizeIterator<Item = JointId> + use<> {
-        (0..self.joints.len() as u32).map(JointId)
+    pub fn joint_ids(&self) -> impl Iterator<Item = JointId> + use<> {
+        let ids: Vec<JointId> = self.joints().map(|(id, _)| id).collect();
+        ids.into_iter()
+    }
+
+    /// How many joints there are.
+    pub fn joint_count(&self) -> usize {
+        self.joints.len() - self.joint_slots.free().len()
+    }
+
+    /// Whether a joint of that number lives.
+    pub fn is_joint(&self, id: JointId) -> bool {
+        self.joints.get(id.index()).is_some_and(|j| !j.uses.is_empty())
+    }
+
+    /// Whether no number of any kind is free. Bodies are compact until an operator removes something;
+    /// [`Body::compact`] closes the gaps.
+    pub fn is_compact(&self) -> bool {
+        self.joint_slots.is_compact() && self.surfaces.iter().all(Surface::is_compact)
     }
 
     /// One joint.
@@ -133,6 +162,6 @@ impl Body {
 
     /// Faces of all surfaces.
     pub fn face_count(&self) -> usize {
-        self.surfaces.iter().map(|s| s.faces.len()).sum()
+        self.surfaces.iter().map(|s| s.live_counts()[2]).sum()
     }
 }

@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 
 use super::Body;
-use super::complex::Complex;
 use super::ids::{FaceId, SurfaceId};
 use super::shells::Shells;
+use super::welded::{FaceNumbers, Welded};
 
 /// Which side of a face: the one where its normal looks, or the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -44,7 +44,7 @@ pub struct Regions {
     regions: Vec<Region>,
     shell_of_side: Vec<u32>,
     region_of_shell: Vec<u32>,
-    face_offsets: Vec<u32>,
+    faces: FaceNumbers,
 }
 
 impl Regions {
@@ -55,7 +55,7 @@ impl Regions {
 
     /// The shell that a side of a face belongs to: sides that one can walk to round edges.
     pub fn shell(&self, surface: SurfaceId, face: FaceId, side: FaceSide) -> u32 {
-        let f = self.face_offsets[surface.index()] + face.0;
+        let f = self.faces.number(surface, face.0);
         self.shell_of_side[2 * f as usize + usize::from(side == FaceSide::Back)]
     }
 
@@ -82,12 +82,11 @@ impl Regions {
 
     fn uses_where(&self, wanted: impl Fn(u32) -> bool) -> Vec<FaceUse> {
         let mut uses = Vec::new();
-        for (s, w) in self.face_offsets.windows(2).enumerate() {
-            for f in w[0]..w[1] {
-                for (k, side) in [FaceSide::Front, FaceSide::Back].into_iter().enumerate() {
-                    if wanted(self.shell_of_side[2 * f as usize + k]) {
-                        uses.push(FaceUse { surface: SurfaceId(s as u32), face: FaceId(f - w[0]), side });
-                    }
+        for f in 0..self.faces.count() {
+            let (surface, face) = self.faces.face(f);
+            for (k, side) in [FaceSide::Front, FaceSide::Back].into_iter().enumerate() {
+                if wanted(self.shell_of_side[2 * f as usize + k]) {
+                    uses.push(FaceUse { surface, face, side });
                 }
             }
         }
@@ -100,7 +99,7 @@ impl Body {
     ///
     /// O(faces), and O(floating parts · faces) where there are voids and several parts.
     pub fn regions(&self) -> Regions {
-        let complex = Complex::new(self);
+        let complex = Welded::new(self);
         let shells = Shells::new(&complex);
         let volumes = shells.volumes(self);
         let outer = shells.outer(&volumes);
@@ -129,12 +128,7 @@ impl Body {
                 *volume += volumes[shell];
             }
         }
-        Regions {
-            regions,
-            shell_of_side: shells.of_side,
-            region_of_shell,
-            face_offsets: complex.face_offsets,
-        }
+        Regions { regions, shell_of_side: shells.of_side, region_of_shell, faces: complex.faces }
     }
 
     /// Puts every part that floats in a void into the smallest void around it.
@@ -145,10 +139,8 @@ impl Body {
         (outer, voids): (&[usize], &[usize]),
         region_of_shell: &mut [u32],
     ) {
-        let triangles: Vec<[DVec3; 3]> = self
-            .surfaces()
-            .flat_map(|(_, s)| (0..s.faces().len() as u32).map(move |f| s.corners(FaceId(f))))
-            .collect();
+        let triangles: Vec<[DVec3; 3]> =
+            self.surfaces().flat_map(|(_, s)| s.live_faces().map(move |f| s.corners(f))).collect();
         // A point of every part: the middle of its first face.
         let mut points = vec![DVec3::ZERO; shells.sheets];
         for (f, &part) in shells.sheet_of_face.iter().enumerate().rev() {

@@ -10,8 +10,8 @@
 use glam::DVec3;
 
 use super::Body;
-use super::complex::{Complex, FaceUse};
 use super::weld::UnionFind;
+use super::welded::{FaceUse, Welded};
 
 /// Sides of faces by shell, and shells by connected sheets.
 pub(crate) struct Shells {
@@ -32,7 +32,7 @@ pub(crate) fn onwards(u: FaceUse) -> [u32; 2] {
 
 impl Shells {
     /// O(faces).
-    pub(crate) fn new(complex: &Complex) -> Self {
+    pub(crate) fn new(complex: &Welded) -> Self {
         let faces = complex.face_count() as usize;
         let mut sides = UnionFind::new(2 * faces);
         let mut sheets = UnionFind::new(faces);
@@ -73,8 +73,8 @@ impl Shells {
         let origin = body.surfaces.iter().find_map(|s| s.positions.first()).copied().unwrap_or(DVec3::ZERO);
         let mut f = 0;
         for s in &body.surfaces {
-            for face in &s.faces {
-                let [a, b, c] = face.map(|v| s.positions[v as usize] - origin);
+            for face in s.live_faces() {
+                let [a, b, c] = s.corners(face).map(|p| p - origin);
                 let cone = a.dot(b.cross(c)) / 6.0;
                 // The face's normal looks into the region of side 2f.
                 volumes[self.of_side[2 * f] as usize] -= cone;

@@ -20,6 +20,9 @@ pub enum SplitError {
         /// How many it needs.
         needed: usize,
     },
+    /// Numbers are free in between.
+    #[error("the body has free numbers; make it compact first")]
+    Sparse,
     /// The result would have more faces than ids.
     #[error("surface `{0}` has too many faces to be split into four each")]
     TooLarge(String),
@@ -74,8 +77,11 @@ impl Body {
     /// position, bit for bit: that of the joint's edge on the lowest surface.
     ///
     /// # Errors
-    /// Midpoints of the wrong number; too many faces for 32-bit ids. Nothing is changed then. O(faces).
+    /// A body that is not compact; midpoints of the wrong number; too many faces for 32-bit ids. Nothing is changed then. O(faces).
     pub fn split_all(&mut self, midpoints: Option<&[Vec<DVec3>]>) -> Result<SplitMap, SplitError> {
+        if !self.is_compact() {
+            return Err(SplitError::Sparse);
+        }
         if let Some(given) = midpoints
             && given.len() != self.surfaces.len()
         {

@@ -5,7 +5,8 @@ use glam::{DVec2, DVec3};
 use super::adjacency::EdgeIndex;
 use super::attribute::{AttributeEdge, AttributeNode};
 use super::chain::{Chain, Loop};
-use super::ids::{ChainId, DirectedEdge, EdgeId, FaceId, LoopId, NodeId};
+use super::ids::{ChainId, DirectedEdge, EdgeId, FaceId, LoopId, NONE, NodeId};
+use super::slots::SurfaceSlots;
 
 /// Entry of [`Surface::edge_chain`] for an edge on no chain.
 pub(crate) const NO_CHAIN: u32 = 0;
@@ -40,6 +41,7 @@ pub struct Surface {
     pub(crate) loops: Vec<Loop>,
     pub(crate) attribute_nodes: Vec<AttributeNode>,
     pub(crate) attribute_edges: Vec<AttributeEdge>,
+    pub(crate) slots: SurfaceSlots,
 }
 
 impl Surface {
@@ -92,12 +94,56 @@ impl Surface {
         fits
     }
 
-    /// Faces as node triples.
+    /// Whether a node of that number lives.
+    #[inline]
+    pub fn is_node(&self, node: NodeId) -> bool {
+        node.index() < self.positions.len() && !self.slots.nodes.is_free(node.0)
+    }
+
+    /// Whether an edge of that number lives.
+    #[inline]
+    pub fn is_edge(&self, edge: EdgeId) -> bool {
+        self.edges.get(edge.index()).is_some_and(|ends| ends[0] != NONE)
+    }
+
+    /// Whether a face of that number lives.
+    #[inline]
+    pub fn is_face(&self, face: FaceId) -> bool {
+        self.faces.get(face.index()).is_some_and(|corners| corners[0] != NONE)
+    }
+
+    /// The nodes that live, in order. O(nodes).
+    pub fn live_nodes(&self) -> impl Iterator<Item = NodeId> + Clone + '_ {
+        (0..self.positions.len() as u32).map(NodeId).filter(|&v| !self.slots.nodes.is_free(v.0))
+    }
+
+    /// The edges that live, in order. O(edges).
+    pub fn live_edges(&self) -> impl Iterator<Item = EdgeId> + Clone + '_ {
+        (0..self.edges.len() as u32).map(EdgeId).filter(|&e| self.is_edge(e))
+    }
+
+    /// The faces that live, in order. O(faces).
+    pub fn live_faces(&self) -> impl Iterator<Item = FaceId> + Clone + '_ {
+        (0..self.faces.len() as u32).map(FaceId).filter(|&f| self.is_face(f))
+    }
+
+    /// Nodes, edges and faces that live.
+    pub fn live_counts(&self) -> [usize; 3] {
+        let free = [&self.slots.nodes, &self.slots.edges, &self.slots.faces].map(|s| s.free().len());
+        [self.positions.len() - free[0], self.edges.len() - free[1], self.faces.len() - free[2]]
+    }
+
+    /// Whether no number is free. Bodies are compact until an operator removes something.
+    pub fn is_compact(&self) -> bool {
+        self.slots.is_compact()
+    }
+
+    /// Faces as node triples; three times [`NONE`] where the number is free.
     pub fn faces(&self) -> &[[u32; 3]] {
         &self.faces
     }
 
-    /// Edges as node pairs. The left face runs from the first node to the second.
+    /// Edges as node pairs; twice [`NONE`] where the number is free. The left face runs from the first node to the second.
     pub fn edges(&self) -> &[[u32; 2]] {
         &self.edges
     }
@@ -204,7 +250,7 @@ impl Surface {
     /// The edges at every node, in order of their numbers. O(nodes + edges).
     pub fn node_edges(&self) -> Star {
         let mut starts = vec![0u32; self.positions.len() + 1];
-        for &[a, b] in &self.edges {
+        for &[a, b] in self.edges.iter().filter(|ends| ends[0] != NONE) {
             starts[a as usize + 1] += 1;
             starts[b as usize + 1] += 1;
         }
@@ -212,8 +258,8 @@ impl Surface {
             starts[i] += starts[i - 1];
         }
         let mut fill = starts.clone();
-        let mut edges = vec![0; self.edges.len() * 2];
-        for (e, ends) in self.edges.iter().enumerate() {
+        let mut edges = vec![0; *starts.last().unwrap_or(&0) as usize];
+        for (e, ends) in self.edges.iter().enumerate().filter(|(_, ends)| ends[0] != NONE) {
             for &v in ends {
                 edges[fill[v as usize] as usize] = e as u32;
                 fill[v as usize] += 1;
@@ -224,11 +270,11 @@ impl Surface {
 
     /// Area, in mm².
     pub fn area(&self) -> f64 {
-        let twice = |f: &[u32; 3]| {
-            let [a, b, c] = f.map(|v| self.positions[v as usize]);
+        let twice = |f: FaceId| {
+            let [a, b, c] = self.corners(f);
             (b - a).cross(c - a).length()
         };
-        self.faces.iter().map(twice).sum::<f64>() * 0.5
+        self.live_faces().map(twice).sum::<f64>() * 0.5
     }
 
     /// Bytes held by the arrays of nodes, edges and faces.

@@ -1,13 +1,13 @@
 //! Nodes and edges that joints hold together, seen as one.
 
 use super::Body;
-use super::ids::{JointId, SurfaceId};
+use super::ids::{JointId, NONE, SurfaceId};
 use crate::{Group, TriMesh};
 
 /// The body as one complex: which node of the welded mesh a node of a surface is.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Weld {
-    /// For every surface, for every node, its number in the welded mesh.
+    /// For every surface, for every node, its number in the welded mesh; [`NONE`] for a free number of a sparse surface.
     pub nodes: Vec<Vec<u32>>,
     /// How many welded nodes there are.
     pub count: usize,
@@ -53,14 +53,21 @@ impl UnionFind {
     }
 
     /// Numbers the sets 0, 1, … in order of their lowest members.
-    pub(crate) fn number(mut self) -> (Vec<u32>, usize) {
+    pub(crate) fn number(self) -> (Vec<u32>, usize) {
+        self.number_where(|_| true)
+    }
+
+    /// The same without the sets whose lowest member is not to be counted; these have no number ([`NONE`]).
+    pub(crate) fn number_where(mut self, counted: impl Fn(u32) -> bool) -> (Vec<u32>, usize) {
         let mut count = 0;
         let mut out = vec![0; self.parent.len()];
         for x in 0..self.parent.len() as u32 {
             let root = self.find(x);
-            if root == x {
+            if root == x && counted(x) {
                 out[x as usize] = count;
                 count += 1;
+            } else if root == x {
+                out[x as usize] = NONE;
             } else {
                 out[x as usize] = out[root as usize];
             }
@@ -100,9 +107,27 @@ impl Body {
     /// of surfaces and their nodes. O(nodes + joint nodes).
     pub fn weld(&self) -> Weld {
         let offsets = self.offsets(|s| s.positions.len());
-        let (numbers, count) = self.node_sets(&offsets).number();
+        let slots = |s: &super::Surface| s.slots.nodes.clone();
+        let (numbers, count) = self.number_live(self.node_sets(&offsets), &offsets, slots);
         let nodes = offsets.windows(2).map(|w| numbers[w[0] as usize..w[1] as usize].to_vec()).collect();
         Weld { nodes, count }
+    }
+
+    /// Numbers the sets of what lives.
+    fn number_live(
+        &self,
+        sets: UnionFind,
+        offsets: &[u32],
+        slots: impl Fn(&super::Surface) -> super::slots::Slots,
+    ) -> (Vec<u32>, usize) {
+        if self.is_compact() {
+            return sets.number();
+        }
+        let mut free = vec![false; *offsets.last().unwrap_or(&0) as usize];
+        for (s, offset) in self.surfaces.iter().zip(offsets) {
+            slots(s).free().iter().for_each(|i| free[(offset + i) as usize] = true);
+        }
+        sets.number_where(|x| !free[x as usize])
     }
 
     /// Numbers of the edges with those that correspond on joints seen as one, per surface, and how many there are.
@@ -122,7 +147,7 @@ impl Body {
                 }
             }
         }
-        let (numbers, count) = sets.number();
+        let (numbers, count) = self.number_live(sets, &offsets, |s| s.slots.edges.clone());
         (offsets.windows(2).map(|w| numbers[w[0] as usize..w[1] as usize].to_vec()).collect(), count)
     }
 
@@ -135,16 +160,16 @@ impl Body {
         let mut uvs = Vec::new();
         // Backwards, so that a welded node has the position of its first node.
         for (s, nodes) in self.surfaces.iter().zip(&weld.nodes).rev() {
-            for (&w, &p) in nodes.iter().zip(&s.positions) {
+            for (&w, &p) in nodes.iter().zip(&s.positions).filter(|(w, _)| **w != NONE) {
                 mesh.positions[w as usize] = p;
             }
         }
         for (s, nodes) in self.surfaces.iter().zip(&weld.nodes) {
             let from = mesh.faces.len() as u32;
-            mesh.faces.extend(s.faces.iter().map(|f| f.map(|v| nodes[v as usize])));
+            mesh.faces.extend(s.live_faces().map(|f| s.faces[f.index()].map(|v| nodes[v as usize])));
             mesh.groups.push(Group { name: s.name.clone(), faces: from..mesh.faces.len() as u32 });
             if flat {
-                uvs.extend(s.faces.iter().map(|f| f.map(|v| s.planar[v as usize])));
+                uvs.extend(s.live_faces().map(|f| s.faces[f.index()].map(|v| s.planar[v as usize])));
             }
         }
         mesh.corner_uvs = flat.then_some(uvs);

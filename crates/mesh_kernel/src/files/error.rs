@@ -143,3 +143,12 @@ pub(super) fn excerpt(bytes: &[u8], from: usize) -> String {
         .collect();
     text
 }
+
+/// At most 100 characters of a text from the file, for messages.
+pub(super) fn shortened(text: &str) -> String {
+    let mut out: String = text.chars().take(100).map(|c| if c.is_control() { '?' } else { c }).collect();
+    if out.len() < text.len() {
+        out.push('…');
+    }
+    out
+}

@@ -5,24 +5,25 @@ use std::borrow::Cow;
 use glam::{DMat4, DQuat, DVec2, DVec3};
 use serde_json::json;
 
+use super::error::shortened;
 use super::gltf::{Document, Node, Numbers, Primitive, chunks, data_uri, get, malformed};
 use super::weld::{Welder, key};
-use super::{Place, Polyline, ReadError, WriteOptions, check_room};
+use super::{MAX_ELEMENTS, Place, Polyline, ReadError, WriteOptions};
 use crate::{Group, TriMesh};
 
 pub(super) fn parse(bytes: &[u8]) -> Result<TriMesh, ReadError> {
     let (text, binary) = chunks(bytes)?;
     let document: Document = serde_json::from_slice(text).map_err(|error| ReadError::Malformed {
         place: Place::Line(error.line()),
-        reason: format!("the glTF document cannot be understood: {error}"),
+        reason: format!("the glTF document cannot be understood: {}", shortened(&error.to_string())),
     })?;
     if !document.asset.version.starts_with("2.") {
-        return Err(ReadError::Unsupported { what: format!("glTF version '{}'", document.asset.version) });
+        return Err(ReadError::Unsupported { what: format!("glTF version '{}'", shortened(&document.asset.version)) });
     }
     // Extensions that change how geometry is stored; materials, lights and the like do not matter here.
     let geometry = |name: &&String| name.contains("compression");
     if let Some(name) = document.extensions_required.iter().find(geometry) {
-        return Err(ReadError::Unsupported { what: format!("the glTF extension '{name}'") });
+        return Err(ReadError::Unsupported { what: format!("the glTF extension '{}'", shortened(name)) });
     }
     let mut buffers: Vec<Cow<[u8]>> = Vec::new();
     for (k, buffer) in document.buffers.iter().enumerate() {
@@ -37,8 +38,13 @@ pub(super) fn parse(bytes: &[u8]) -> Result<TriMesh, ReadError> {
         }
         buffers.push(bytes);
     }
-    let mut reader =
-        Reader { document: &document, buffers: &buffers, mesh: TriMesh::default(), flats: Some(Vec::new()) };
+    let mut reader = Reader {
+        document: &document,
+        buffers: &buffers,
+        mesh: TriMesh::default(),
+        flats: Some(Vec::new()),
+        limit: unfolding_limit(bytes.len()),
+    };
     reader.nodes()?;
     let Reader { mut mesh, flats, .. } = reader;
     mesh.corner_uvs = flats.filter(|flats| !flats.is_empty());
@@ -51,9 +57,24 @@ struct Reader<'a> {
     mesh: TriMesh,
     /// Corner positions in the flat; `None` once a primitive has none.
     flats: Option<Vec<[DVec2; 3]>>,
+    /// Most vertices, and most triangles.
+    limit: usize,
+}
+
+/// Most vertices, and most triangles, that a glTF file of so many bytes may unfold to.
+///
+/// Nodes may share a mesh and primitives their accessors, so that a file can ask for the square of its size. Room for
+/// a quarter of a million, and four a byte beyond, holds any model with parts that come again; without such parts, a
+/// byte gives one triangle at most.
+fn unfolding_limit(bytes: usize) -> usize {
+    bytes.saturating_mul(4).saturating_add(1 << 18).min(MAX_ELEMENTS)
 }
 
 impl Reader<'_> {
+    fn check_room(&self, what: &'static str, count: usize) -> Result<(), ReadError> {
+        if count > self.limit { Err(ReadError::TooMany { what, limit: self.limit }) } else { Ok(()) }
+    }
+
     /// Every node of the scene once, parents before children.
     fn nodes(&mut self) -> Result<(), ReadError> {
         let nodes = &self.document.nodes;
@@ -106,7 +127,7 @@ impl Reader<'_> {
     /// Appends positions and returns the number of the first.
     fn positions(&mut self, positions: &Numbers, accessor: usize, place: DMat4) -> Result<usize, ReadError> {
         let first = self.mesh.positions.len();
-        check_room("vertices", first + positions.count)?;
+        self.check_room("vertices", first + positions.count)?;
         self.mesh.positions.reserve(positions.count);
         for k in 0..positions.count {
             let p = DVec3::new(positions.float(k, 0), positions.float(k, 1), positions.float(k, 2));
@@ -153,7 +174,7 @@ impl Reader<'_> {
         let corners = indices.as_ref().map_or(positions.count, |indices| indices.count);
         let triangles = if mode == 4 { corners / 3 } else { corners.saturating_sub(2) };
         let face_start = self.mesh.faces.len();
-        check_room("triangles", face_start + triangles)?;
+        self.check_room("triangles", face_start + triangles)?;
         let corner = |k: usize| -> Result<u32, ReadError> {
             let index = indices.as_ref().map_or(k, |indices| indices.float(k, 0) as usize);
             if index >= positions.count {

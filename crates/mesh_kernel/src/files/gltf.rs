@@ -2,6 +2,7 @@
 
 use serde::Deserialize;
 
+use super::error::shortened;
 use super::{Format, Place, ReadError};
 
 #[derive(Deserialize)]
@@ -140,7 +141,7 @@ impl Document {
         if accessor.shape != shape {
             return Err(malformed(format!(
                 "accessor {index} is a {}, it should be a {shape}",
-                accessor.shape
+                shortened(&accessor.shape)
             )));
         }
         let size = match accessor.component {

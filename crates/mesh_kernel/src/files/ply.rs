@@ -254,11 +254,14 @@ impl Reader<'_> {
             }
         }
         self.layout = layout.ok_or_else(|| magic("it has no 'format' line"))?;
-        for axis in 0..3 {
-            let has = |e: &Element| e.properties.iter().any(|p| p.role == Role::Position(axis));
-            if !elements.iter().any(has) {
-                return Err(magic("its vertices have no x, y and z"));
-            }
+        let mut vertices = elements.iter().filter(|element| element.name == "vertex");
+        let has = |e: &Element, axis| e.properties.iter().any(|p| p.role == Role::Position(axis));
+        if !vertices.next().is_some_and(|element| (0..3).all(|axis| has(element, axis))) {
+            return Err(magic("its vertices have no x, y and z"));
+        }
+        if let Some(again) = vertices.next() {
+            let reason = "a second element 'vertex'; faces could mean either".to_owned();
+            return Err(ReadError::Malformed { place: Place::Line(again.line), reason });
         }
         Ok(elements)
     }

@@ -9,8 +9,8 @@ type Checked = Result<(), TemplateError>;
 
 /// Largest length that a template may hold, mm: ten metres.
 const LONGEST: f64 = 10_000.0;
-/// Most splits.
-pub(crate) const DEEPEST: u8 = 8;
+/// Most splits of every face of a template.
+pub const DEEPEST: u8 = 8;
 
 pub(crate) fn check(file: &TemplateFile) -> Checked {
     if file.toile_template != super::FORMAT_VERSION {

@@ -64,6 +64,8 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use check::DEEPEST;
+
 /// Version of the format that this program writes and reads.
 pub const FORMAT_VERSION: u32 = 1;
 

@@ -22,8 +22,18 @@ pub enum Defect {
         /// The length that it should have.
         expected: usize,
     },
+    /// A number is given as free and is not, or is free and not given as such, or is given twice.
+    #[error("{}{what} {id} is free in one list and taken in another", surface.map_or(String::new(), |s| format!("surface {s}: ")))]
+    FreeNumber {
+        /// Surface; none for joints.
+        surface: Option<SurfaceId>,
+        /// The kind of entity.
+        what: &'static str,
+        /// The number.
+        id: u32,
+    },
     /// An id names nothing.
-    #[error("{of} names {what} {id}, of which there are {limit}")]
+    #[error("{of} names {what} {id}, which is free or not below {limit}")]
     UnknownId {
         /// The entity that names it, in words.
         of: String,
@@ -347,6 +357,7 @@ impl Defect {
     pub fn code(&self) -> &'static str {
         match self {
             Self::ArrayLength { .. } => "array_length",
+            Self::FreeNumber { .. } => "free_number",
             Self::UnknownId { .. } => "unknown_id",
             Self::EdgeOfOneNode { .. } => "edge_of_one_node",
             Self::RepeatedCorner { .. } => "repeated_corner",

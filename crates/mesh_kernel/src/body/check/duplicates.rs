@@ -2,7 +2,7 @@
 
 use super::Defect;
 use crate::body::adjacency::EdgeIndex;
-use crate::body::{Body, EdgeId, FaceId, JointId, Surface, SurfaceId};
+use crate::body::{Body, EdgeId, FaceId, JointId, NONE, Surface, SurfaceId};
 
 pub(super) fn check(body: &Body, defects: &mut Vec<Defect>) {
     for (id, s) in body.surfaces() {
@@ -17,6 +17,10 @@ fn duplicate_edges(id: SurfaceId, s: &Surface, defects: &mut Vec<Defect>) {
     let joint = |e: EdgeId| -> Option<JointId> { s.chain(s.edge_chain(e)?).joint };
     for (e, &[a, b]) in s.edges.iter().enumerate() {
         let edge = EdgeId(e as u32);
+        if a == NONE {
+            index.push_none();
+            continue;
+        }
         if let Some(other) = index.find(a, b)
             && (joint(edge).is_none() || joint(edge) != joint(other))
         {
@@ -31,10 +35,10 @@ fn duplicate_faces(body: &Body, defects: &mut Vec<Defect>) {
     let weld = body.weld();
     let mut faces: Vec<([u32; 3], SurfaceId, u32)> = Vec::with_capacity(body.face_count());
     for (id, s) in body.surfaces() {
-        for (f, nodes) in s.faces.iter().enumerate() {
-            let mut nodes = nodes.map(|v| weld.node(id, v));
+        for f in s.live_faces() {
+            let mut nodes = s.faces[f.index()].map(|v| weld.node(id, v));
             nodes.sort_unstable();
-            faces.push((nodes, id, f as u32));
+            faces.push((nodes, id, f.0));
         }
     }
     faces.sort_unstable();

@@ -4,13 +4,16 @@ use glam::DVec3;
 
 use super::Defect;
 use crate::body::radial::collinear;
-use crate::body::{Body, EdgeId, FaceId, NONE, NodeId};
+use crate::body::{Body, EdgeId, NONE, NodeId};
 
 /// Whether all spatial positions are finite.
 pub(super) fn check_finite(body: &Body, defects: &mut Vec<Defect>) -> bool {
     let mut finite = true;
     for (id, s) in body.surfaces() {
         let mut rule = |layer, v: usize, position: DVec3| {
+            if s.slots.nodes.is_free(v as u32) {
+                return true;
+            }
             if !position.is_finite() {
                 defects.push(Defect::NotFinite { surface: id, node: NodeId(v as u32), layer, position });
             }
@@ -35,8 +38,8 @@ const CLEAR_SINE: f64 = 1e-10;
 /// Faces whose corners lie on one line, by exact predicates; edges without face and length.
 pub(super) fn check_degenerate(body: &Body, defects: &mut Vec<Defect>) {
     for (id, s) in body.surfaces() {
-        for f in 0..s.faces.len() as u32 {
-            let [a, b, c] = s.corners(FaceId(f));
+        for face in s.live_faces() {
+            let [a, b, c] = s.corners(face);
             let (p, q) = (b - a, c - a);
             let double = p.cross(q).length();
             let scale = p.length() * q.length();
@@ -44,9 +47,9 @@ pub(super) fn check_degenerate(body: &Body, defects: &mut Vec<Defect>) {
             if (double > CLEAR_SINE * scale && scale > 0.0) || !collinear(a, b, c) {
                 continue;
             }
-            defects.push(Defect::DegenerateFace { surface: id, face: FaceId(f), area: 0.5 * double });
+            defects.push(Defect::DegenerateFace { surface: id, face, area: 0.5 * double });
         }
-        for (e, &[a, b]) in s.edges.iter().enumerate() {
+        for (e, &[a, b]) in s.edges.iter().enumerate().filter(|(_, ends)| ends[0] != NONE) {
             if s.edge_faces[e] == [NONE; 2] && s.positions[a as usize] == s.positions[b as usize] {
                 defects.push(Defect::EdgeWithoutLength { surface: id, edge: EdgeId(e as u32) });
             }

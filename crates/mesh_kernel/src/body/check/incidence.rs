@@ -12,6 +12,9 @@ pub(super) fn check(body: &Body, defects: &mut Vec<Defect>) {
 
 fn edges(id: SurfaceId, s: &Surface, defects: &mut Vec<Defect>) {
     for (e, (&[a, b], sides)) in s.edges.iter().zip(&s.edge_faces).enumerate() {
+        if a == NONE {
+            continue;
+        }
         let edge = EdgeId(e as u32);
         if a == b {
             defects.push(Defect::EdgeOfOneNode { surface: id, edge, node: NodeId(a) });
@@ -32,6 +35,9 @@ fn edges(id: SurfaceId, s: &Surface, defects: &mut Vec<Defect>) {
 
 fn faces(id: SurfaceId, s: &Surface, defects: &mut Vec<Defect>) {
     for (f, (&nodes, sides)) in s.faces.iter().zip(&s.face_edges).enumerate() {
+        if nodes[0] == NONE {
+            continue;
+        }
         let face = FaceId(f as u32);
         let [a, b, c] = nodes;
         if a == b || b == c || c == a {

@@ -43,6 +43,12 @@ fn finds(code: &str, plant: impl FnOnce(&mut Body)) {
 fn arrays_and_ids() {
     finds("array_length", |b| b.surfaces[0].planar = vec![DVec2::ZERO]);
     finds("array_length", |b| _ = b.surfaces[0].edge_chain.pop());
+    finds("unknown_id", |b| b.surfaces[0].slots.nodes.release(0));
+    finds("free_number", |b| b.surfaces[0].slots.edges.release(0));
+    finds("free_number", |b| b.surfaces[0].slots.faces.release(99));
+    finds("unknown_id", |b| b.surfaces[0].faces[0] = [NONE; 3]);
+    finds("free_number", |b| (b.surfaces[0].faces[0], b.surfaces[0].face_edges[0]) = ([NONE; 3], [NONE; 3]));
+    finds("free_number", |b| b.joint_slots.release(0));
     finds("unknown_id", |b| b.surfaces[0].edges[1][0] = 99);
     finds("unknown_id", |b| b.surfaces[0].edge_faces[1][0] = 99);
     finds("unknown_id", |b| b.surfaces[0].edge_chain[1] = 99);

@@ -4,6 +4,7 @@
 //! (typed refusals, nothing changed), then acts and is logged. [`Editor::undo`] gives the body back bit for bit, ids
 //! included; [`Editor::transaction`] rolls back whole on an error.
 
+mod delta;
 mod edge_set;
 mod journal;
 mod split_edge;

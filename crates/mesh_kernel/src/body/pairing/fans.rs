@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use super::PairingError;
 use super::locate::locate;
-use crate::body::complex::Complex;
 use crate::body::shells::{Shells, onwards};
 use crate::body::weld::UnionFind;
+use crate::body::welded::Welded;
 use crate::body::{Body, EdgeId, FaceId, NONE, NodeId, SurfaceId};
 
 /// What a fan looks like.
@@ -87,14 +87,14 @@ pub(super) struct LocalFan {
 /// The edges at every welded node.
 pub(super) struct Links<'a> {
     pub(super) body: &'a Body,
-    pub(super) complex: &'a Complex,
+    pub(super) complex: &'a Welded,
     starts: Vec<u32>,
     edges: Vec<u32>,
 }
 
 impl<'a> Links<'a> {
     /// O(edges).
-    pub(super) fn new(body: &'a Body, complex: &'a Complex) -> Self {
+    pub(super) fn new(body: &'a Body, complex: &'a Welded) -> Self {
         let mut starts = vec![0u32; complex.weld.count + 1];
         for &[a, b] in &complex.edges {
             starts[a as usize + 1] += 1;
@@ -120,8 +120,7 @@ impl<'a> Links<'a> {
 
     /// Surface and number of a face numbered through all.
     pub(super) fn face(&self, f: u32) -> (SurfaceId, FaceId) {
-        let s = self.complex.face_offsets.partition_point(|&o| o <= f) - 1;
-        (SurfaceId(s as u32), FaceId(f - self.complex.face_offsets[s]))
+        self.complex.faces.face(f)
     }
 
     /// The fans of faces and wires at a welded node. O(edges at the node · log).
@@ -215,7 +214,7 @@ impl LocalFan {
 }
 
 /// Any node of a surface for every welded node: the first.
-pub(super) fn places(complex: &Complex) -> Vec<(SurfaceId, NodeId)> {
+pub(super) fn places(complex: &Welded) -> Vec<(SurfaceId, NodeId)> {
     let mut places = vec![(SurfaceId(NONE), NodeId(NONE)); complex.weld.count];
     for (s, nodes) in complex.weld.nodes.iter().enumerate().rev() {
         for (v, &w) in nodes.iter().enumerate().rev() {
@@ -239,7 +238,7 @@ impl Body {
         if node.index() >= s.positions.len() {
             return Err(unknown);
         }
-        let complex = Complex::new(self);
+        let complex = Welded::new(self);
         let links = Links::new(self, &complex);
         let w = complex.weld.node(surface, node.0);
         let local = links.fans(w);
@@ -261,7 +260,7 @@ impl Body {
 
     /// Nodes at which several fans meet, each by its first surface's node. O(faces · log).
     pub fn non_manifold_nodes(&self) -> Vec<(SurfaceId, NodeId)> {
-        let complex = Complex::new(self);
+        let complex = Welded::new(self);
         let links = Links::new(self, &complex);
         let places = places(&complex);
         (0..complex.weld.count as u32)

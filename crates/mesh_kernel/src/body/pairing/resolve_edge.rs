@@ -6,10 +6,10 @@ use super::fans::Links;
 use super::recut::{Seam, Unsewn};
 use super::{Pairing, PairingError, Resolution};
 use crate::body::build::Run;
-use crate::body::complex::Complex;
 use crate::body::ids::{DirectedEdge, NONE};
 use crate::body::joint::{Sheet, Side};
 use crate::body::weld::UnionFind;
+use crate::body::welded::Welded;
 use crate::body::{Body, JointId, SurfaceId};
 
 impl Body {
@@ -101,7 +101,7 @@ impl Body {
     /// For every welded node of the joint at which its pairs stay together (its ends, and where more than its own sheets
     /// meet), the surfaces' nodes there.
     fn held_nodes(&self, joint: JointId) -> Vec<Vec<(u32, u32)>> {
-        let complex = Complex::new(self);
+        let complex = Welded::new(self);
         let links = Links::new(self, &complex);
         let first = self.joint(joint).uses[0].surface;
         let line: Vec<u32> =
@@ -185,9 +185,9 @@ impl Unsewn {
             nodes.dedup();
             nodes.iter().zip(0..).for_each(|(&v, i)| place[v as usize] = i);
             let mut faces_at: Vec<Vec<u32>> = vec![Vec::new(); nodes.len()];
-            for (f, corners) in s.faces.iter().enumerate() {
-                for &v in corners.iter().filter(|v| place[**v as usize] != NONE) {
-                    faces_at[place[v as usize] as usize].push(f as u32);
+            for f in s.live_faces() {
+                for &v in s.faces[f.index()].iter().filter(|v| place[**v as usize] != NONE) {
+                    faces_at[place[v as usize] as usize].push(f.0);
                 }
             }
             let partner: BTreeMap<u32, u32> = edges.iter().copied().collect();
