@@ -357,7 +357,8 @@ impl<'a> Recorder<'a> {
 
     /// Runs `change` on chains and loops. It must keep every edge's chain right, as [`Surface::find_loops`] does.
     pub(super) fn change_boundary(&mut self, change: impl FnOnce(&mut Surface)) {
-        let before = (self.surface.chains.clone(), self.surface.loops.clone(), self.surface.slots.chains.clone());
+        let before =
+            (self.surface.chains.clone(), self.surface.loops.clone(), self.surface.slots.chains.clone());
         change(self.surface);
         self.back.push(Change::Boundary(Box::new(before)));
     }

@@ -8,8 +8,13 @@ use crate::body::{EdgeId, SurfaceId};
 /// One operator. Its inverse needs nothing more than this and the body after it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Record {
+    Deltas(Vec<super::delta::Delta>),
     /// The edge turned by a quarter. Inverse: turned back.
-    SwapEdge { surface: SurfaceId, edge: EdgeId, clockwise: bool },
+    SwapEdge {
+        surface: SurfaceId,
+        edge: EdgeId,
+        clockwise: bool,
+    },
     /// One edge split (its partners on a joint have records of their own). Inverse: joined.
     SplitEdge {
         surface: SurfaceId,

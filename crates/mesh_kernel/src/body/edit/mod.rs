@@ -6,12 +6,15 @@
 
 mod delta;
 mod edge_set;
+mod face_mesh;
 mod journal;
 mod split_edge;
 mod swap_edge;
+mod triangulate_face;
 
 pub use split_edge::{EdgeSplit, SplitEdgeError};
 pub use swap_edge::{Guard, SwapError};
+pub use triangulate_face::{FaceTriangulation, TriangulateError};
 
 use edge_set::EdgeSet;
 use journal::{Journal, Record};
@@ -62,8 +65,8 @@ impl Editor {
             return false;
         }
         let from = self.journal.marks.last().copied().unwrap_or(0);
-        let records = self.journal.done.split_off(from);
-        self.take_back(&records);
+        let mut records = self.journal.done.split_off(from);
+        self.take_back(&mut records);
         self.journal.undone.push(records);
         true
     }
@@ -72,8 +75,8 @@ impl Editor {
     /// undone.
     pub fn redo(&mut self) -> bool {
         let Some(records) = self.journal.undone.pop() else { return false };
-        for record in records {
-            self.act(&record);
+        for mut record in records {
+            self.act(&mut record);
             self.journal.done.push(record);
         }
         self.journal.marks.push(self.journal.done.len());
@@ -90,8 +93,8 @@ impl Editor {
         let result = edit(self);
         self.open -= 1;
         if result.is_err() {
-            let records = self.journal.done.split_off(start);
-            self.take_back(&records);
+            let mut records = self.journal.done.split_off(start);
+            self.take_back(&mut records);
         } else if self.open == 0 && self.journal.done.len() > start {
             self.journal.marks.push(self.journal.done.len());
         }
@@ -99,8 +102,8 @@ impl Editor {
     }
 
     /// Does and logs an operator that has been found possible.
-    fn apply(&mut self, record: Record) {
-        self.act(&record);
+    fn apply(&mut self, mut record: Record) {
+        self.act(&mut record);
         self.journal.undone.clear();
         self.journal.done.push(record);
         if self.open == 0 {
@@ -108,19 +111,30 @@ impl Editor {
         }
     }
 
-    fn act(&mut self, record: &Record) {
+    fn log_deltas(&mut self, deltas: Vec<delta::Delta>) {
+        self.joined.iter_mut().for_each(|j| *j = None);
+        self.journal.undone.clear();
+        self.journal.done.push(Record::Deltas(deltas));
+        if self.open == 0 {
+            self.journal.marks.push(self.journal.done.len());
+        }
+    }
+
+    fn act(&mut self, record: &mut Record) {
         match record {
             Record::SwapEdge { surface, edge, clockwise } => self.do_swap(*surface, *edge, *clockwise),
+            Record::Deltas(d) => d.iter_mut().for_each(|d| d.exchange(&mut self.body)),
             Record::SplitEdge { surface, edge, at, position, .. } => {
                 self.do_split(*surface, *edge, *at, *position);
             }
         }
     }
 
-    fn take_back(&mut self, records: &[Record]) {
-        for record in records.iter().rev() {
+    fn take_back(&mut self, records: &mut [Record]) {
+        for record in records.iter_mut().rev() {
             match record {
                 Record::SwapEdge { surface, edge, clockwise } => self.do_swap(*surface, *edge, !*clockwise),
+                Record::Deltas(d) => d.iter_mut().for_each(|d| d.exchange(&mut self.body)),
                 Record::SplitEdge { surface, edge, attributes, .. } => {
                     self.do_join(*surface, *edge, attributes.as_deref());
                 }
