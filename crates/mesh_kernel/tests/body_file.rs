@@ -66,7 +66,6 @@ fn random_bodies_come_back_bit_for_bit() {
     }
 }
 
-
 #[test]
 fn through_a_file_on_disk() {
     let folder = tempfile::tempdir().unwrap();

@@ -50,8 +50,8 @@ fn declared(operation: &Operation, outcome: &Outcome, before: &Body) -> Option<C
                 faces.iter().filter(|f| **f != mesh_kernel::body::NONE).count() as i64
             };
             let partners = before.partners(*surface, *edge);
-            let n = faces_at(*surface, *edge)
-                + partners.iter().map(|(s, d)| faces_at(*s, d.edge())).sum::<i64>();
+            let n =
+                faces_at(*surface, *edge) + partners.iter().map(|(s, d)| faces_at(*s, d.edge())).sum::<i64>();
             Some(Counts { v: 1, e: 1 + n, f: n, ..zero })
         }
         (

@@ -48,9 +48,9 @@ impl Record {
                 Some(Operation::SplitEdge { surface: *surface, edge: *edge, at: *at })
             }
             Self::Following(_) => None,
-            Self::Deltas { operation, .. } | Self::Whole { operation, .. } | Self::Surface { operation, .. } => {
-                Some((**operation).clone())
-            }
+            Self::Deltas { operation, .. }
+            | Self::Whole { operation, .. }
+            | Self::Surface { operation, .. } => Some((**operation).clone()),
         }
     }
 }

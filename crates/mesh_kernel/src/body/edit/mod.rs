@@ -6,6 +6,7 @@
 
 mod delta;
 pub mod euler;
+mod face_mesh;
 mod joints;
 mod journal;
 mod layers;
@@ -15,6 +16,7 @@ mod split_edge;
 mod split_face;
 mod stars;
 mod swap_edge;
+mod triangulate_face;
 mod whole;
 
 pub use euler::{EdgeRole, EulerError, EulerOperator, FaceRole};
@@ -24,6 +26,7 @@ pub use operation::{Operation, Outcome, Refusal};
 pub use split_edge::{EdgeSplit, SplitEdgeError};
 pub use split_face::{FaceSplit, SplitEdge, SplitFaceError};
 pub use swap_edge::{Guard, SwapError};
+pub use triangulate_face::{FaceTriangulation, TriangulateError};
 
 use delta::{Delta, Recorder};
 use journal::{Journal, Record};

@@ -8,8 +8,8 @@ use crate::body::joint::{JointUse, Sheet, Side};
 use crate::body::slots::{Slots, SurfaceSlots};
 use crate::body::surface::{NO_CHAIN, chain_slot};
 use crate::body::{
-    AttributeEdge, AttributeNode, AttributeNodeId, Body, Chain, ChainId, Defect, DirectedEdge, EdgeId, FaceId, Joint,
-    JointId, Loop, LoopId, NONE, NodeId, Surface, SurfaceId,
+    AttributeEdge, AttributeNode, AttributeNodeId, Body, Chain, ChainId, Defect, DirectedEdge, EdgeId,
+    FaceId, Joint, JointId, Loop, LoopId, NONE, NodeId, Surface, SurfaceId,
 };
 
 /// Most edges of a surface: [`DirectedEdge`] has a bit less.
@@ -259,8 +259,7 @@ impl BodyRecord {
 impl SurfaceRecord {
     fn check_lengths(&self, surface: SurfaceId) -> Result<(), BodyFileError> {
         let nodes = self.positions.len();
-        for (array, len) in
-            [("backup positions", self.backup.len()), ("planar positions", self.planar.len())]
+        for (array, len) in [("backup positions", self.backup.len()), ("planar positions", self.planar.len())]
         {
             if len != 0 && len != nodes {
                 return Err(BodyFileError::Length { surface, array, len, nodes });

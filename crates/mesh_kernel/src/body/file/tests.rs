@@ -179,7 +179,10 @@ fn contradictions_are_refused_with_the_first_of_them() {
     }
     let mut bad = good;
     bad["surfaces"][0]["planar"] = json!([[0.0, 1.0]]);
-    assert!(matches!(refusal(&bad), BodyFileError::Length { array: "planar positions", len: 1, nodes: 10, .. }));
+    assert!(matches!(
+        refusal(&bad),
+        BodyFileError::Length { array: "planar positions", len: 1, nodes: 10, .. }
+    ));
 }
 
 #[test]
