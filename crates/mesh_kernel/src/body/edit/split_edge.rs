@@ -163,11 +163,12 @@ impl Editor {
             len += 1;
         }
         if let Some(stars) = stars {
-            stars.exchange(b, edge.0, second);
+            stars.exchange(a, (edge.0, b), (edge.0, m));
+            stars.exchange(b, (edge.0, a), (second, m));
             let held = s.edge_chain(edge).is_some_and(|c| s.chain(c).joint.is_some());
             stars.place(m, &ring[..len], held, len == 2);
             for &cut in &ring[2..len] {
-                stars.gain(s.edges[cut as usize][1], cut);
+                stars.gain(s.edges[cut as usize][1], cut, m);
             }
         }
         if let Some(c) = s.edge_chain(edge) {
@@ -230,7 +231,7 @@ impl Editor {
             retarget(s, sides[side], new, face);
             if let Some(stars) = &mut stars {
                 let [_, tip] = s.edges[cut as usize];
-                stars.lose(tip, cut, sides[side]);
+                stars.lose(tip, cut, m, sides[side]);
             }
             remove_edge(s, cut, next(&mut edges_left, &mut old_edges));
             remove_face(s, new, next(&mut faces_left, &mut old_faces));
@@ -238,7 +239,8 @@ impl Editor {
         remove_edge(s, second.0, next(&mut edges_left, &mut old_edges));
         s.edges[edge.index()] = [a, b];
         if let Some(stars) = &mut stars {
-            stars.exchange(b, second.0, edge.0);
+            stars.exchange(a, (edge.0, m), (edge.0, b));
+            stars.exchange(b, (second.0, m), (edge.0, a));
             stars.remove(m);
         }
         remove_node(s, m, reused[0] > 0);
