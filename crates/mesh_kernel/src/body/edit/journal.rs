@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::collapse_edge::Collapse;
 use super::loops::Loops;
 use crate::body::attribute::{AttributeEdge, AttributeNode};
 use crate::body::{EdgeId, SurfaceId};
@@ -22,6 +23,8 @@ pub(super) enum Record {
         reused: [u8; 3],
         more: Option<Box<SplitMore>>,
     },
+    /// One edge collapsed (its partners on a joint have records of their own). Inverse: drawn out again.
+    CollapseEdge(Box<Collapse>),
 }
 
 /// What few splits need.

@@ -4,12 +4,16 @@
 //! (typed refusals, nothing changed), then acts and is logged. [`Editor::undo`] gives the body back bit for bit, ids
 //! included; [`Editor::transaction`] rolls back whole on an error.
 
+mod collapse_edge;
 mod journal;
+mod link_condition;
 mod loops;
 mod split_edge;
 mod stars;
 mod swap_edge;
 
+pub use collapse_edge::{CollapseError, CollapseOptions, CollapsedEdge, EdgeCollapse};
+pub use link_condition::Obstacle;
 pub use split_edge::{EdgeSplit, SplitEdgeError};
 pub use swap_edge::{Guard, SwapError};
 
@@ -141,6 +145,7 @@ impl Editor {
             Record::SplitEdge { surface, edge, at, more, .. } => {
                 self.do_split(*surface, *edge, *at, more.as_deref());
             }
+            Record::CollapseEdge(collapse) => self.do_collapse(collapse),
         }
     }
 
@@ -151,6 +156,7 @@ impl Editor {
                 Record::SplitEdge { surface, edge, second, reused, more, .. } => {
                     self.do_join(*surface, *edge, *second, *reused, more.as_deref());
                 }
+                Record::CollapseEdge(collapse) => self.undo_collapse(collapse),
             }
         }
     }

@@ -126,7 +126,7 @@ impl Editor {
     }
 
     /// Whether the joint runs over the edge from its second node to its first.
-    fn joint_reversed(&self, surface: SurfaceId, edge: EdgeId) -> bool {
+    pub(super) fn joint_reversed(&self, surface: SurfaceId, edge: EdgeId) -> bool {
         let s = self.body.surface(surface);
         let Some(c) = s.edge_chain(edge) else { return false };
         let chain = s.chain(c);
@@ -382,7 +382,7 @@ fn place(s: &Surface, face: u32, edge: u32) -> usize {
     if x == edge { 0 } else { 1 + usize::from(y != edge) }
 }
 
-fn between(a: DVec3, b: DVec3, at: f64) -> DVec3 {
+pub(super) fn between(a: DVec3, b: DVec3, at: f64) -> DVec3 {
     a * (1.0 - at) + b * at
 }
 

@@ -60,6 +60,8 @@ pub(super) struct Stars {
     /// All edges of every singular node; `None` until one is met.
     singular: Option<BTreeMap<u32, Vec<u32>>>,
     hubs: Vec<Hub>,
+    /// Kept, so that no list is allocated for an operator.
+    scratch: [Vec<u32>; 2],
 }
 
 /// The other face of an edge.
@@ -122,7 +124,7 @@ impl Stars {
                 nodes[v as usize].degree |= HELD;
             }
         }
-        Self { nodes, singular: None, hubs: Vec::new() }
+        Self { nodes, singular: None, hubs: Vec::new(), scratch: Default::default() }
     }
 
     /// How many edges end at a node.
@@ -350,6 +352,33 @@ impl Stars {
                 all.remove(&node);
             }
         }
+    }
+
+    /// A node with its edges known, whatever was known before.
+    pub(super) fn recount(&mut self, s: &Surface, node: u32, edges: &[u32], held: bool) {
+        self.place(node, edges, held, false);
+        let singular = match (&self.singular, edges) {
+            (Some(_), &[first, ..]) => !self.fan(s, node, first, &mut Vec::new()),
+            _ => false,
+        };
+        if singular {
+            self.place(node, edges, held, true);
+        }
+    }
+
+    /// Whether singular nodes have been met, so that they are to be told of.
+    pub(super) fn knows_singular(&self) -> bool {
+        self.singular.is_some()
+    }
+
+    /// Two empty lists, to be given back.
+    pub(super) fn take_scratch(&mut self) -> [Vec<u32>; 2] {
+        std::mem::take(&mut self.scratch)
+    }
+
+    pub(super) fn give_scratch(&mut self, mut scratch: [Vec<u32>; 2]) {
+        scratch.iter_mut().for_each(Vec::clear);
+        self.scratch = scratch;
     }
 
     /// A node that is no more, or no more there.
