@@ -93,6 +93,7 @@ fn may_bend(operation: &Operation) -> bool {
         Operation::MoveNodes { .. }
         | Operation::RestoreBackup { .. }
         | Operation::SwapEdge { .. }
+        | Operation::CollapseEdge { .. }
         | Operation::MakeVertexEdge { .. }
         | Operation::MakeEdge { .. }
         | Operation::MakeEdgeChole { .. }

@@ -407,6 +407,14 @@ impl Source {
                 Operation::SplitEdge { surface, edge: self.edge(s), at }
             }
             3 if !big => Operation::SplitFace { surface, face: self.face(s) },
+            4..=6 => {
+                let edge = self.edge(s);
+                let ends = s.edges().get(edge.index()).copied().unwrap_or([0, 1]);
+                let at = [None, Some(0.5), Some(self.random.unit())][self.random.below(3)];
+                let end = self.random.below(40);
+                let keep = NodeId(if end == 0 { 0 } else { ends[end % 2] });
+                Operation::CollapseEdge { surface, edge, keep, at, guard }
+            }
             _ => Operation::SwapEdge { surface, edge: self.edge(s), guard },
         }
     }
