@@ -163,10 +163,10 @@ impl Editor {
         }
         s.edges[edge.index()] = [new_left[0], new_left[1]];
         if let Some(stars) = &mut self.stars[surface.index()] {
-            stars.lose(a, e, ca);
-            stars.lose(b, e, bc);
-            stars.gain(c, e);
-            stars.gain(d, e);
+            stars.lose(a, e, b, ca);
+            stars.lose(b, e, a, bc);
+            stars.gain(c, e, d);
+            stars.gain(d, e, c);
         }
     }
 }
@@ -181,17 +181,18 @@ impl Diamond {
     #[inline]
     fn at(s: &Surface, edge: u32) -> Self {
         let faces = s.edge_faces[edge as usize];
-        let at = faces.map(|f| {
+        let at = |f: u32| {
             let [x, y, _] = s.face_edges[f as usize];
             if x == edge { 0 } else { 1 + usize::from(y != edge) }
-        });
-        Self { faces, at }
+        };
+        Self { faces, at: [at(faces[0]), at(faces[1])] }
     }
 
     /// The corners that are not on the edge.
     #[inline]
     fn tips(&self, s: &Surface) -> [u32; 2] {
-        [0, 1].map(|k| s.faces[self.faces[k] as usize][LAST[self.at[k]]])
+        let tip = |k: usize| s.faces[self.faces[k] as usize][LAST[self.at[k]]];
+        [tip(0), tip(1)]
     }
 
     /// Whether an edge joins the two tips.
