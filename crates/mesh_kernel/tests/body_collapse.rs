@@ -95,3 +95,18 @@ proptest! {
         run(kind, seed, steps, if guard { Guard::NoTurn } else { Guard::None }, false);
     }
 }
+
+/// The same for longer: `TOILE_CASES` bodies, from `TOILE_SEED` on.
+#[test]
+#[ignore = "long"]
+fn many_random_bodies() {
+    let number = |name: &str, or: u64| std::env::var(name).map_or(or, |v| v.parse().unwrap());
+    let (first, cases) = (number("TOILE_SEED", 0), number("TOILE_CASES", 10_000));
+    for seed in first..first + cases {
+        let mut random = Random(seed);
+        let (kind, steps) = (random.below(5) as u8, 1 + random.below(60));
+        let guard = [Guard::None, Guard::NoTurn][random.below(2)];
+        let ran = std::panic::catch_unwind(|| run(kind, seed, steps, guard, seed % 3 == 0));
+        assert!(ran.is_ok(), "seed {seed}");
+    }
+}

@@ -123,7 +123,7 @@ impl Editor {
         if c == d || diamond.joined(s, stars, c, d) {
             return Err(SwapError::EdgeExists { surface, nodes: [NodeId(c), NodeId(d)] });
         }
-        let held = stars.is_held(c) && stars.is_held(d);
+        let held = stars.is_held(c) || stars.is_held(d);
         if held && Neighbourhood::new(self).joined((surface, c), (surface, d)) {
             return Err(SwapError::EdgeExists { surface, nodes: [NodeId(c), NodeId(d)] });
         }
