@@ -64,6 +64,7 @@ pub use chain::{Chain, Loop};
 pub use check::Defect;
 pub use compact::{Compaction, SurfaceCompaction};
 pub use counts::Counts;
+pub use edit::{FaceSplit, SplitEdge, SplitFaceError};
 pub use file::{BODY_FILE_EXTENSION, BODY_FILE_VERSION, BodyFileError};
 pub use free_boundary::{BoundaryLine, FreeEdge};
 pub use ids::{
@@ -77,7 +78,6 @@ pub use pairing::{
 pub use regions::{FaceSide, FaceUse, Region, Regions};
 pub use sectors::{Crossing, EdgeSector, Sector};
 pub use split_all::{SplitError, SplitMap, SurfaceSplit};
-pub use edit::{FaceSplit, SplitEdge, SplitFaceError};
 pub use surface::{Star, Surface};
 pub use weld::Weld;
 

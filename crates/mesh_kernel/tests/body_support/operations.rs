@@ -100,7 +100,8 @@ impl Source {
         if self.random.below(20) == 0 {
             return any(self);
         }
-        let free: Vec<EdgeId> = s.live_edges().filter(|e| s.edge_faces()[e.index()].contains(&NONE)).collect();
+        let free: Vec<EdgeId> =
+            s.live_edges().filter(|e| s.edge_faces()[e.index()].contains(&NONE)).collect();
         for _ in 0..6 {
             let Some(e) = pick(&mut self.random, &free) else { return any(self) };
             let [mut a, mut b] = s.edges()[e.index()];
@@ -118,9 +119,10 @@ impl Source {
             }
             // Those that are faces already are not so interesting.
             let taken = |t: &[EdgeId; 3]| {
-                s.faces().iter().zip(s.face_edges()).any(|(f, sides)| {
-                    f[0] != NONE && t.iter().all(|e| sides.contains(&e.0))
-                })
+                s.faces()
+                    .iter()
+                    .zip(s.face_edges())
+                    .any(|(f, sides)| f[0] != NONE && t.iter().all(|e| sides.contains(&e.0)))
             };
             if self.random.below(10) > 0 {
                 found.retain(|t| !taken(t));
@@ -175,7 +177,8 @@ impl Source {
                 edges.entry([at(a), at(b)]).or_default().push((id.0, [a, b]));
             }
         }
-        let chain = |surface: u32, nodes: Vec<u32>| ChainSpec { surface: surface as usize, nodes, closed: false };
+        let chain =
+            |surface: u32, nodes: Vec<u32>| ChainSpec { surface: surface as usize, nodes, closed: false };
         let edges: Vec<_> = edges.into_values().filter(|l| l.len() > 1).collect();
         let nodes: Vec<_> = nodes.into_values().filter(|l| l.len() > 1).collect();
         let name = (self.random.below(2) == 0).then(|| "seam".to_owned());
@@ -243,7 +246,10 @@ impl Source {
                 9 => self.joints(body),
                 10 => self.layers(body, surface, s),
                 11 | 12 if self.attributes => self.attributes(surface, s),
-                13..=21 => self.high_level(surface, s, big),
+                13..=21 => {
+                    let carrying = body.surfaces().any(|(_, s)| !s.attribute_nodes().is_empty());
+                    self.high_level(surface, s, big, carrying)
+                }
                 22 if self.random.below(3) == 0 => Operation::Compact,
                 23 if self.random.below(8) == 0 && body.face_count() < MANY / 4 => {
                     Operation::SplitAll { midpoints: None }
@@ -322,7 +328,10 @@ impl Source {
                 let planar = s.positions().iter().map(|p| DVec2::new(p.x, p.y)).collect();
                 Operation::SetPlanar { surface, planar: Some(planar) }
             }
-            2 => Operation::SetPlanar { surface, planar: [None, Some(Vec::new())][self.random.below(2)].clone() },
+            2 => Operation::SetPlanar {
+                surface,
+                planar: [None, Some(Vec::new())][self.random.below(2)].clone(),
+            },
             3 => Operation::RenameSurface { surface, name: format!("name {}", self.random.below(9)) },
             _ => {
                 let n = 1 + self.random.below(2);
@@ -391,7 +400,11 @@ impl Source {
                 let first = all.len() as u32;
                 let u = self.random.unit();
                 let side = |i: usize, u: f64| AttributeNode::OnEdge { edge: EdgeId(sides[i]), u };
-                all.extend([side(0, u), AttributeNode::InFace { face, areal: self.areal() }, side(1, 1.0 - u)]);
+                all.extend([
+                    side(0, u),
+                    AttributeNode::InFace { face, areal: self.areal() },
+                    side(1, 1.0 - u),
+                ]);
                 let nodes = (first..first + 3).map(AttributeNodeId).collect();
                 lines.push(AttributeEdge { name: Some("line".into()), nodes });
                 Operation::SetAttributes { surface, nodes: all, lines }
@@ -399,7 +412,7 @@ impl Source {
         }
     }
 
-    fn high_level(&mut self, surface: SurfaceId, s: &Surface, big: bool) -> Operation {
+    fn high_level(&mut self, surface: SurfaceId, s: &Surface, big: bool, carrying: bool) -> Operation {
         let guard = if self.random.below(8) == 0 { Guard::None } else { Guard::NoTurn };
         match self.random.below(10) {
             0..=2 if !big => {
@@ -407,6 +420,14 @@ impl Source {
                 Operation::SplitEdge { surface, edge: self.edge(s), at }
             }
             3 if !big => Operation::SplitFace { surface, face: self.face(s) },
+            4..=6 if !carrying => {
+                let edge = self.edge(s);
+                let ends = s.edges().get(edge.index()).copied().unwrap_or([0, 1]);
+                let at = [None, Some(0.5), Some(self.random.unit())][self.random.below(3)];
+                let end = self.random.below(40);
+                let keep = NodeId(if end == 0 { 0 } else { ends[end % 2] });
+                Operation::CollapseEdge { surface, edge, keep, at, guard }
+            }
             _ => Operation::SwapEdge { surface, edge: self.edge(s), guard },
         }
     }

@@ -3,12 +3,14 @@
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
+use super::Editor;
+use super::collapse_edge::{CollapseError, CollapseOptions, EdgeCollapse};
 use super::euler::{EdgeRole, EulerError, EulerOperator, FaceRole};
 use super::joints::JointError;
 use super::layers::LayerError;
 use super::split_edge::{EdgeSplit, SplitEdgeError};
 use super::swap_edge::{Guard, SwapError};
-use super::Editor;
+use super::triangulate_face::{FaceTriangulation, TriangulateError};
 use crate::body::{
     AttributeEdge, AttributeEdgeId, AttributeNode, AttributeNodeId, Compaction, EdgeId, FaceId, FaceSplit,
     JointId, JointSpec, NodeId, SplitError, SplitFaceError, SplitMap, SurfaceId,
@@ -103,8 +105,20 @@ pub enum Operation {
         #[serde(default)]
         guard: Guard,
     },
+    /// [`Editor::collapse_edge`].
+    CollapseEdge {
+        surface: SurfaceId,
+        edge: EdgeId,
+        keep: NodeId,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        at: Option<f64>,
+        #[serde(default)]
+        guard: Guard,
+    },
     /// [`Editor::split_face`].
     SplitFace { surface: SurfaceId, face: FaceId },
+    /// [`Editor::triangulate_face`].
+    TriangulateFace { surface: SurfaceId, face: FaceId },
     /// [`Editor::split_all`]; halves where no midpoints are given.
     SplitAll {
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -122,12 +136,21 @@ pub enum Outcome {
     Done,
     Surface(SurfaceId),
     Node(NodeId),
-    NodeAndEdge { node: NodeId, edge: EdgeId },
-    Edge { edge: EdgeId, role: EdgeRole },
+    NodeAndEdge {
+        node: NodeId,
+        edge: EdgeId,
+    },
+    Edge {
+        edge: EdgeId,
+        role: EdgeRole,
+    },
     EdgeKilled(EdgeRole),
     /// The edge that is left.
     EdgeMerged(EdgeId),
-    Face { face: FaceId, role: FaceRole },
+    Face {
+        face: FaceId,
+        role: FaceRole,
+    },
     FaceKilled(FaceRole),
     AttributeNode(AttributeNodeId),
     AttributeEdge(AttributeEdgeId),
@@ -135,7 +158,9 @@ pub enum Outcome {
     /// What would make the joint again.
     JointKilled(JointSpec),
     EdgeSplit(EdgeSplit),
+    EdgeCollapsed(EdgeCollapse),
     FaceSplit(FaceSplit),
+    FaceTriangulated(FaceTriangulation),
     AllSplit(SplitMap),
     Compacted(Compaction),
     Group(Vec<Outcome>),
@@ -156,7 +181,11 @@ pub enum Refusal {
     #[error(transparent)]
     SwapEdge(#[from] SwapError),
     #[error(transparent)]
+    CollapseEdge(#[from] CollapseError),
+    #[error(transparent)]
     SplitFace(#[from] SplitFaceError),
+    #[error(transparent)]
+    Triangulate(#[from] TriangulateError),
     #[error(transparent)]
     SplitAll(#[from] SplitError),
 }
@@ -295,7 +324,14 @@ impl Editor {
             }
             Op::SplitEdge { surface, edge, at } => Outcome::EdgeSplit(self.split_edge(surface, edge, at)?),
             Op::SwapEdge { surface, edge, guard } => self.swap_edge(surface, edge, guard)?.into(),
+            Op::CollapseEdge { surface, edge, keep, at, guard } => {
+                let options = CollapseOptions { at, guard };
+                Outcome::EdgeCollapsed(self.collapse_edge(surface, edge, keep, &options)?)
+            }
             Op::SplitFace { surface, face } => Outcome::FaceSplit(self.split_face(surface, face)?),
+            Op::TriangulateFace { surface, face } => {
+                Outcome::FaceTriangulated(self.triangulate_face(surface, face)?)
+            }
             Op::SplitAll { ref midpoints } => Outcome::AllSplit(self.split_all(midpoints.as_deref())?),
             Op::Compact => Outcome::Compacted(self.compact()),
         })
