@@ -116,7 +116,7 @@ pub enum BodyFileError {
 const NAMED: usize = 3;
 
 fn words(defects: &[Defect]) -> String {
-    defects.iter().map(Defect::to_string).collect::<Vec<_>>().join("; ")
+    defects.iter().map(|d| shortened(&d.to_string())).collect::<Vec<_>>().join("; ")
 }
 
 /// What `serde_json` found wrong with `bytes`, in our words.
