@@ -209,8 +209,8 @@ fn hollows_that_touch_are_parted_by_joining_the_material() {
 }
 
 /// Flaps on the edge along z at angles in degrees; `along` those that run along it.
-fn flaps(angles: &[(f64, bool)], edges: u32) -> Body {
-    let specs: Vec<SurfaceSpec> = angles
+fn flap_specs(angles: &[(f64, bool)], edges: u32) -> Vec<SurfaceSpec> {
+    angles
         .iter()
         .map(|&(angle, along)| {
             let out = DVec3::new(angle.to_radians().cos(), angle.to_radians().sin(), 0.0) * 3.0;
@@ -226,7 +226,11 @@ fn flaps(angles: &[(f64, bool)], edges: u32) -> Body {
             }
             spec
         })
-        .collect();
+        .collect()
+}
+
+fn flaps(angles: &[(f64, bool)], edges: u32) -> Body {
+    let specs = flap_specs(angles, edges);
     let chains = (0..specs.len())
         .map(|surface| ChainSpec { surface, nodes: (0..=edges).map(|k| 2 * k).collect(), closed: false })
         .collect();
@@ -370,29 +374,17 @@ fn what_bounds_no_material_is_refused() {
 #[test]
 fn wires_touching_joints_and_attributes_in_the_way() {
     // A wire in the joint.
-    let mut body = flaps(&[(0.0, true), (90.0, false), (180.0, true)], 1);
+    let specs = flap_specs(&[(0.0, true), (90.0, false), (180.0, true)], 1);
+    let mut body = Body::build(&specs, &[]).unwrap();
     let wire = body.add_surface("wire");
     let [a, b] = [DVec3::ZERO, DVec3::Z].map(|p| body.add_node(wire, p).unwrap());
     body.add_edge(wire, a, b).unwrap();
-    let specs: Vec<SurfaceSpec> = body
-        .surfaces()
-        .take(3)
-        .map(|(_, s)| SurfaceSpec {
-            name: s.name().into(),
-            positions: s.positions().to_vec(),
-            faces: s.faces().to_vec(),
-        })
-        .collect();
-    let mut fresh = Body::build(&specs, &[]).unwrap();
-    let wire = fresh.add_surface("wire");
-    let [a, b] = [DVec3::ZERO, DVec3::Z].map(|p| fresh.add_node(wire, p).unwrap());
-    fresh.add_edge(wire, a, b).unwrap();
     let mut chains: Vec<ChainSpec> =
         (0..3).map(|surface| ChainSpec { surface, nodes: vec![0, 2], closed: false }).collect();
     chains.push(ChainSpec { surface: 3, nodes: vec![0, 1], closed: false });
-    let joint = fresh.add_joint(&JointSpec { name: None, chains }).unwrap();
-    assert!(matches!(fresh.edge_pairings(joint), Err(PairingError::Wire { .. })));
-    let sectors = fresh.edge_sectors(wire, EdgeId(0));
+    let joint = body.add_joint(&JointSpec { name: None, chains }).unwrap();
+    assert!(matches!(body.edge_pairings(joint), Err(PairingError::Wire { .. })));
+    let sectors = body.edge_sectors(wire, EdgeId(0));
     assert_eq!(sectors.len(), 3);
 
     // A line over the joint, where the sheet is cut there.
@@ -464,7 +456,7 @@ fn what_touches_the_joint_elsewhere_stays_held() {
 #[test]
 fn random_solids_of_cells() {
     let (mut resolved, mut slits) = (0, 0);
-    for seed in 0..150 {
+    for seed in 0..300 {
         let mut random = Random(seed + 1);
         let size = [2 + random.below(2), 2 + random.below(2), 2 + random.below(3)];
         let grouping = random.below(4);
@@ -506,4 +498,66 @@ fn random_solids_of_cells() {
         }
     }
     assert!(resolved > 400 && slits > 30, "{resolved} {slits}");
+}
+
+#[test]
+fn wires_and_nodes_that_touch_a_solid() {
+    let mut solids = Solids::new(1);
+    solids.block([0, 0, 0], [2; 3]);
+    let mut body = solids.body();
+    let block = mesh_kernel::body::SurfaceId(0);
+    let at = DVec3::splat(2.0);
+    let corner = body.surface(block).positions().iter().position(|p| *p == at).unwrap() as u32;
+    let wires = body.add_surface("wires");
+    // One wire outside, one that runs into the block, and a node alone.
+    let [a, b] = [at, at + DVec3::X].map(|p| body.add_node(wires, p).unwrap());
+    body.add_edge(wires, a, b).unwrap();
+    let inside = body.add_surface("inside");
+    let [c, d] = [at, DVec3::ONE].map(|p| body.add_node(inside, p).unwrap());
+    body.add_edge(inside, c, d).unwrap();
+    let alone = body.add_surface("alone");
+    let e = body.add_node(alone, at).unwrap();
+    let chain = |surface, node: u32| ChainSpec { surface, nodes: vec![node], closed: false };
+    let chains = vec![chain(0, corner), chain(1, a.0), chain(2, c.0), chain(3, e.0)];
+    body.add_joint(&JointSpec { name: Some("pin".into()), chains }).unwrap();
+    sound(&body);
+    assert_eq!(body.counts().c, 1);
+    let fans = body.node_fans(wires, a).unwrap();
+    let kinds: Vec<FanKind> = fans.fans.iter().map(|f| f.kind).collect();
+    assert_eq!(kinds, [FanKind::Disk, FanKind::Wire, FanKind::Wire, FanKind::Point]);
+    assert_eq!(fans.fans[1].wires, [(wires, EdgeId(0))]);
+    let mut through: Vec<(Vec<u32>, Through)> =
+        fans.contacts.iter().map(|c| (c.fans.clone(), c.through)).collect();
+    through.sort();
+    assert_eq!(through, [(vec![0, 1], Through::Empty), (vec![0, 2], Through::Material)]);
+    let miss = body.resolve_node(alone, e, Pairing::Miss).unwrap();
+    kept(&body, &miss);
+    // The wire in the material stays; all else is apart.
+    assert_eq!((miss.after.c, miss.touching.len()), (3, 1));
+    let join = body.resolve_node(alone, e, Pairing::Join).unwrap();
+    kept(&body, &join);
+    assert_eq!((join.after.c, join.touching.len()), (2, 1));
+}
+
+#[test]
+fn copies_keep_flat_and_backup_positions() {
+    let mut solids = Solids::new(1);
+    solids.block([0, 0, 0], [2; 3]);
+    solids.block([2, 2, 0], [2; 3]);
+    let mut body = solids.body();
+    for id in body.surface_ids() {
+        let s = body.surface_mut(id);
+        s.store_backup();
+        let flat = s.positions().iter().map(|p| p.truncate() * 3.0).collect();
+        assert!(s.set_planar(flat));
+    }
+    let join = resolve_edge(&body, only_joint(&body), Pairing::Join);
+    for (id, s) in join.body.surfaces() {
+        let old = body.surface(id);
+        assert!(s.positions().len() > old.positions().len());
+        assert_eq!(&s.positions()[..old.positions().len()], old.positions());
+        assert_eq!(s.backup().unwrap(), s.positions());
+        assert!(s.planar().unwrap().iter().zip(s.positions()).all(|(q, p)| *q == p.truncate() * 3.0));
+        assert_eq!(s.faces().len(), old.faces().len());
+    }
 }

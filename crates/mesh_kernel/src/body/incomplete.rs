@@ -6,7 +6,7 @@
 use glam::DVec3;
 
 use super::Body;
-use super::build::{BuildError, JointLabel, JointSpec, LoopPlaces, place_run, make_loop, run_of};
+use super::build::{BuildError, JointLabel, JointSpec, LoopPlaces, make_loop, place_run, run_of};
 use super::edit::{Editor, EulerError, FaceSplit, SplitFaceError};
 use super::ids::{EdgeId, FaceId, JointId, NodeId, SurfaceId};
 use super::joint::Joint;

@@ -37,6 +37,7 @@ mod check;
 mod compact;
 mod counts;
 pub mod edit;
+mod file;
 mod free_boundary;
 mod from_tri_mesh;
 mod homology;
@@ -63,6 +64,8 @@ pub use chain::{Chain, Loop};
 pub use check::Defect;
 pub use compact::{Compaction, SurfaceCompaction};
 pub use counts::Counts;
+pub use edit::{FaceSplit, SplitEdge, SplitFaceError};
+pub use file::{BODY_FILE_EXTENSION, BODY_FILE_VERSION, BodyFileError};
 pub use free_boundary::{BoundaryLine, FreeEdge};
 pub use ids::{
     AttributeEdgeId, AttributeNodeId, ChainId, DirectedEdge, EdgeId, FaceId, JointId, LoopId, NONE, NodeId,
@@ -75,7 +78,6 @@ pub use pairing::{
 pub use regions::{FaceSide, FaceUse, Region, Regions};
 pub use sectors::{Crossing, EdgeSector, Sector};
 pub use split_all::{SplitError, SplitMap, SurfaceSplit};
-pub use edit::{FaceSplit, SplitEdge, SplitFaceError};
 pub use surface::{Star, Surface};
 pub use weld::Weld;
 

@@ -100,7 +100,8 @@ impl Source {
         if self.random.below(20) == 0 {
             return any(self);
         }
-        let free: Vec<EdgeId> = s.live_edges().filter(|e| s.edge_faces()[e.index()].contains(&NONE)).collect();
+        let free: Vec<EdgeId> =
+            s.live_edges().filter(|e| s.edge_faces()[e.index()].contains(&NONE)).collect();
         for _ in 0..6 {
             let Some(e) = pick(&mut self.random, &free) else { return any(self) };
             let [mut a, mut b] = s.edges()[e.index()];
@@ -118,9 +119,10 @@ impl Source {
             }
             // Those that are faces already are not so interesting.
             let taken = |t: &[EdgeId; 3]| {
-                s.faces().iter().zip(s.face_edges()).any(|(f, sides)| {
-                    f[0] != NONE && t.iter().all(|e| sides.contains(&e.0))
-                })
+                s.faces()
+                    .iter()
+                    .zip(s.face_edges())
+                    .any(|(f, sides)| f[0] != NONE && t.iter().all(|e| sides.contains(&e.0)))
             };
             if self.random.below(10) > 0 {
                 found.retain(|t| !taken(t));
@@ -175,7 +177,8 @@ impl Source {
                 edges.entry([at(a), at(b)]).or_default().push((id.0, [a, b]));
             }
         }
-        let chain = |surface: u32, nodes: Vec<u32>| ChainSpec { surface: surface as usize, nodes, closed: false };
+        let chain =
+            |surface: u32, nodes: Vec<u32>| ChainSpec { surface: surface as usize, nodes, closed: false };
         let edges: Vec<_> = edges.into_values().filter(|l| l.len() > 1).collect();
         let nodes: Vec<_> = nodes.into_values().filter(|l| l.len() > 1).collect();
         let name = (self.random.below(2) == 0).then(|| "seam".to_owned());
@@ -325,7 +328,10 @@ impl Source {
                 let planar = s.positions().iter().map(|p| DVec2::new(p.x, p.y)).collect();
                 Operation::SetPlanar { surface, planar: Some(planar) }
             }
-            2 => Operation::SetPlanar { surface, planar: [None, Some(Vec::new())][self.random.below(2)].clone() },
+            2 => Operation::SetPlanar {
+                surface,
+                planar: [None, Some(Vec::new())][self.random.below(2)].clone(),
+            },
             3 => Operation::RenameSurface { surface, name: format!("name {}", self.random.below(9)) },
             _ => {
                 let n = 1 + self.random.below(2);
@@ -394,7 +400,11 @@ impl Source {
                 let first = all.len() as u32;
                 let u = self.random.unit();
                 let side = |i: usize, u: f64| AttributeNode::OnEdge { edge: EdgeId(sides[i]), u };
-                all.extend([side(0, u), AttributeNode::InFace { face, areal: self.areal() }, side(1, 1.0 - u)]);
+                all.extend([
+                    side(0, u),
+                    AttributeNode::InFace { face, areal: self.areal() },
+                    side(1, 1.0 - u),
+                ]);
                 let nodes = (first..first + 3).map(AttributeNodeId).collect();
                 lines.push(AttributeEdge { name: Some("line".into()), nodes });
                 Operation::SetAttributes { surface, nodes: all, lines }

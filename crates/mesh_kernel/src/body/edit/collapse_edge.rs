@@ -330,6 +330,9 @@ impl Editor {
         if options.guard == Guard::NoTurn {
             self.guard_turns(&members, &moved, position)?;
         }
+        if let Some(m) = members.iter().find(|m| !self.body.surface(m.surface).attribute_nodes.is_empty()) {
+            return Err(CollapseError::CarriesAttributes { surface: m.surface, edge: m.edge });
+        }
         // How far from the kept node towards the removed one.
         let share = options.at.map_or(0.0, |at| if ends[0] == keep.0 { at } else { 1.0 - at });
         if let &[member] = &members[..] {

@@ -52,9 +52,9 @@ impl Record {
             }
             Self::CollapseEdge(collapse) => Some(collapse.operation()),
             Self::Following(_) => None,
-            Self::Deltas { operation, .. } | Self::Whole { operation, .. } | Self::Surface { operation, .. } => {
-                Some((**operation).clone())
-            }
+            Self::Deltas { operation, .. }
+            | Self::Whole { operation, .. }
+            | Self::Surface { operation, .. } => Some((**operation).clone()),
         }
     }
 }

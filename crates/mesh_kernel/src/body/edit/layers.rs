@@ -93,9 +93,7 @@ impl Body {
             Some(weld) => {
                 for (numbers, moves) in weld.nodes.iter().zip(&mut moves) {
                     let place = |(v, w): (usize, &u32)| places.get(w).map(|(_, p)| (v as u32, *p));
-                    moves.extend(
-                        numbers.iter().enumerate().filter(|(_, w)| **w != NONE).filter_map(place),
-                    );
+                    moves.extend(numbers.iter().enumerate().filter(|(_, w)| **w != NONE).filter_map(place));
                 }
             }
         }
@@ -342,8 +340,7 @@ impl Editor {
         nodes: &[AttributeNode],
         lines: &[AttributeEdge],
     ) -> Result<(), EulerError> {
-        let operation =
-            || Operation::SetAttributes { surface, nodes: nodes.to_vec(), lines: lines.to_vec() };
+        let operation = || Operation::SetAttributes { surface, nodes: nodes.to_vec(), lines: lines.to_vec() };
         self.change_attributes(surface, operation, |s| {
             s.attribute_nodes.clear();
             s.attribute_edges.clear();

@@ -249,6 +249,17 @@ impl<'a> Neighbourhood<'a> {
         (class, pinned)
     }
 
+    /// Whether an edge of any surface joins two nodes.
+    pub(super) fn joined(&mut self, a: Place, b: Place) -> bool {
+        let [(from, _), (to, _)] = [a, b].map(|x| self.class(x));
+        let mut edges = Vec::new();
+        from.iter().any(|&(surface, v)| {
+            let (s, stars) = self.editor.stars_of(surface);
+            stars.edges_at(s, v, &mut edges);
+            edges.iter().any(|&e| to.contains(&(surface, s.edges[e as usize][0] ^ s.edges[e as usize][1] ^ v)))
+        })
+    }
+
     /// The first of the nodes that joints make one with `at`.
     fn first(&mut self, at: Place) -> Place {
         if !self.editor.stars_of(at.0).1.is_held(at.1) {

@@ -7,6 +7,7 @@
 mod collapse_edge;
 mod delta;
 pub mod euler;
+mod face_mesh;
 mod joints;
 mod journal;
 mod layers;
@@ -17,6 +18,7 @@ mod split_edge;
 mod split_face;
 mod stars;
 mod swap_edge;
+mod triangulate_face;
 mod whole;
 
 pub use collapse_edge::{CollapseError, CollapseOptions, CollapsedEdge, EdgeCollapse};
@@ -28,6 +30,7 @@ pub use operation::{Operation, Outcome, Refusal};
 pub use split_edge::{EdgeSplit, SplitEdgeError};
 pub use split_face::{FaceSplit, SplitEdge, SplitFaceError};
 pub use swap_edge::{Guard, SwapError};
+pub use triangulate_face::{FaceTriangulation, TriangulateError};
 
 use delta::{Delta, Recorder};
 use journal::{Journal, Record};

@@ -3,13 +3,14 @@
 use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
+use super::Editor;
 use super::collapse_edge::{CollapseError, CollapseOptions, EdgeCollapse};
 use super::euler::{EdgeRole, EulerError, EulerOperator, FaceRole};
 use super::joints::JointError;
 use super::layers::LayerError;
 use super::split_edge::{EdgeSplit, SplitEdgeError};
 use super::swap_edge::{Guard, SwapError};
-use super::Editor;
+use super::triangulate_face::{FaceTriangulation, TriangulateError};
 use crate::body::{
     AttributeEdge, AttributeEdgeId, AttributeNode, AttributeNodeId, Compaction, EdgeId, FaceId, FaceSplit,
     JointId, JointSpec, NodeId, SplitError, SplitFaceError, SplitMap, SurfaceId,
@@ -116,6 +117,8 @@ pub enum Operation {
     },
     /// [`Editor::split_face`].
     SplitFace { surface: SurfaceId, face: FaceId },
+    /// [`Editor::triangulate_face`].
+    TriangulateFace { surface: SurfaceId, face: FaceId },
     /// [`Editor::split_all`]; halves where no midpoints are given.
     SplitAll {
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -133,12 +136,21 @@ pub enum Outcome {
     Done,
     Surface(SurfaceId),
     Node(NodeId),
-    NodeAndEdge { node: NodeId, edge: EdgeId },
-    Edge { edge: EdgeId, role: EdgeRole },
+    NodeAndEdge {
+        node: NodeId,
+        edge: EdgeId,
+    },
+    Edge {
+        edge: EdgeId,
+        role: EdgeRole,
+    },
     EdgeKilled(EdgeRole),
     /// The edge that is left.
     EdgeMerged(EdgeId),
-    Face { face: FaceId, role: FaceRole },
+    Face {
+        face: FaceId,
+        role: FaceRole,
+    },
     FaceKilled(FaceRole),
     AttributeNode(AttributeNodeId),
     AttributeEdge(AttributeEdgeId),
@@ -148,6 +160,7 @@ pub enum Outcome {
     EdgeSplit(EdgeSplit),
     EdgeCollapsed(EdgeCollapse),
     FaceSplit(FaceSplit),
+    FaceTriangulated(FaceTriangulation),
     AllSplit(SplitMap),
     Compacted(Compaction),
     Group(Vec<Outcome>),
@@ -171,6 +184,8 @@ pub enum Refusal {
     CollapseEdge(#[from] CollapseError),
     #[error(transparent)]
     SplitFace(#[from] SplitFaceError),
+    #[error(transparent)]
+    Triangulate(#[from] TriangulateError),
     #[error(transparent)]
     SplitAll(#[from] SplitError),
 }
@@ -314,6 +329,9 @@ impl Editor {
                 Outcome::EdgeCollapsed(self.collapse_edge(surface, edge, keep, &options)?)
             }
             Op::SplitFace { surface, face } => Outcome::FaceSplit(self.split_face(surface, face)?),
+            Op::TriangulateFace { surface, face } => {
+                Outcome::FaceTriangulated(self.triangulate_face(surface, face)?)
+            }
             Op::SplitAll { ref midpoints } => Outcome::AllSplit(self.split_all(midpoints.as_deref())?),
             Op::Compact => Outcome::Compacted(self.compact()),
         })

@@ -101,21 +101,14 @@ impl Editor {
         Ok(split)
     }
 
-    fn split_one(
-        &mut self,
-        surface: SurfaceId,
-        edge: EdgeId,
-        at: f64,
-        position: Option<DVec3>,
-    ) -> SplitEdge {
+    fn split_one(&mut self, surface: SurfaceId, edge: EdgeId, at: f64, position: Option<DVec3>) -> SplitEdge {
         let s = self.body.surface(surface);
         let slots = &s.slots;
         let node = slots.nodes.next(s.positions.len());
         let second = EdgeId(slots.edges.next(s.edges.len()));
         let faces = s.edge_faces[edge.index()].iter().filter(|f| **f != NONE).count();
         let reused = |slots: &Slots, n: usize| slots.free().len().min(n) as u8;
-        let reused =
-            [reused(&slots.nodes, 1), reused(&slots.edges, 1 + faces), reused(&slots.faces, faces)];
+        let reused = [reused(&slots.nodes, 1), reused(&slots.edges, 1 + faces), reused(&slots.faces, faces)];
         let attributes = (!s.attribute_nodes.is_empty())
             .then(|| Attributes { nodes: s.attribute_nodes.clone(), edges: s.attribute_edges.clone() });
         let loops = split_unsettles(s, edge, second.0).then(|| Loops::of(s));

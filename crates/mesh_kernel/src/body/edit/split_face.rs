@@ -171,11 +171,7 @@ impl Editor {
 }
 
 impl Body {
-    fn plan_split(
-        &self,
-        surface: SurfaceId,
-        face: FaceId,
-    ) -> Result<Vec<(SurfaceId, Plan)>, SplitFaceError> {
+    fn plan_split(&self, surface: SurfaceId, face: FaceId) -> Result<Vec<(SurfaceId, Plan)>, SplitFaceError> {
         let s = self.surfaces.get(surface.index()).ok_or(SplitFaceError::NoSurface(surface))?;
         if !s.is_face(face) {
             return Err(SplitFaceError::NoFace { surface, face });

@@ -343,8 +343,7 @@ impl Stars {
             self.nodes.resize(node as usize + 1, ALONE);
         }
         let anchor = edges.first().copied().unwrap_or(NONE);
-        self.nodes[node as usize] =
-            At { anchor, degree: edges.len() as u32 | if held { HELD } else { 0 } };
+        self.nodes[node as usize] = At { anchor, degree: edges.len() as u32 | if held { HELD } else { 0 } };
         if let Some(all) = &mut self.singular {
             if singular {
                 all.insert(node, edges.to_vec());

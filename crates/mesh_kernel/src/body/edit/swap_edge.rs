@@ -13,6 +13,7 @@
 
 use super::Editor;
 use super::journal::Record;
+use super::link_condition::Neighbourhood;
 use super::stars::{LAST, NEXT, Stars};
 use crate::body::{EdgeId, JointId, NONE, NodeId, Surface, SurfaceId};
 
@@ -49,8 +50,8 @@ pub enum SwapError {
         /// Surfaces that meet there.
         sheets: Vec<SurfaceId>,
     },
-    /// The other diagonal is an edge already.
-    #[error("surface {surface}: nodes {} and {} are joined already; swapping would make the edge twice", nodes[0], nodes[1])]
+    /// The other diagonal is an edge already, in the surface or between nodes that joints make one with these.
+    #[error("surface {surface}: nodes {} and {} are joined already, there or through joints; swapping would make the edge twice", nodes[0], nodes[1])]
     EdgeExists {
         /// Surface.
         surface: SurfaceId,
@@ -123,6 +124,11 @@ impl Editor {
         if c == d || diamond.joined(s, stars, c, d) {
             return Err(SwapError::EdgeExists { surface, nodes: [NodeId(c), NodeId(d)] });
         }
+        let held = stars.is_held(c) || stars.is_held(d);
+        if held && Neighbourhood::new(self).joined((surface, c), (surface, d)) {
+            return Err(SwapError::EdgeExists { surface, nodes: [NodeId(c), NodeId(d)] });
+        }
+        let s = self.body.surface(surface);
         if guard == Guard::NoTurn && turns(s, edge, c, d) {
             return Err(SwapError::Turns { surface, edge });
         }

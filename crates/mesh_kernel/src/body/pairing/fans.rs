@@ -329,12 +329,8 @@ fn contacts(
     }
     let place = |i: usize, s: u32| keys.iter().position(|k| *k == (i, s)).unwrap_or(0) as u32;
     let mut sets = UnionFind::new(keys.len());
-    for i in 0..n {
-        for j in i + 1..n {
-            if near(i, j) {
-                sets.union(place(i, within[i][j]), place(j, within[j][i]));
-            }
-        }
+    for (i, j) in (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j))).filter(|&(i, j)| near(i, j)) {
+        sets.union(place(i, within[i][j]), place(j, within[j][i]));
     }
     let (set_of, count) = sets.number();
     let mut contacts =

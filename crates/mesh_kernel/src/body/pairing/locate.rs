@@ -108,7 +108,8 @@ fn same_direction(n: DVec3, p: DVec3, d: DVec3) -> bool {
 /// The sector before the first arc that the path `d` → `to` crosses; `None` where it crosses none, or that is not sure.
 fn first_crossing(n: DVec3, arcs: &[Arc], d: DVec3, to: DVec3) -> Option<u32> {
     let side = |a: DVec3, b: DVec3, c: DVec3| turn(n, a, b, c);
-    let plane = (d - n).cross(to - n);
+    let [from, beyond] = [d, to].map(|p| (p - n).normalize_or_zero());
+    let plane = from.cross(beyond);
     let mut first: Option<(f64, u32)> = None;
     let mut second = f64::INFINITY;
     for a in arcs {
@@ -132,9 +133,10 @@ fn first_crossing(n: DVec3, arcs: &[Arc], d: DVec3, to: DVec3) -> Option<u32> {
         if !alike {
             continue;
         }
+        // Of the two directions in both planes the one on the path, which is less than half a turn long.
         let line = plane.cross((a.p - n).cross(a.q - n));
-        let line = if line.dot(d - n + (to - n)) < 0.0 { -line } else { line };
-        let angle = (d - n).cross(line).length().atan2((d - n).dot(line));
+        let line = if line.dot(from + beyond) < 0.0 { -line } else { line };
+        let angle = from.cross(line).length().atan2(from.dot(line));
         let sector = a.sectors[usize::from(of_d < 0.0)];
         match first {
             Some((nearest, _)) if angle >= nearest => second = second.min(angle),

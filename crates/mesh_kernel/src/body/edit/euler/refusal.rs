@@ -97,7 +97,9 @@ pub enum EulerError {
         face: FaceId,
     },
     /// The edge lies on a joint.
-    #[error("edge {edge} of surface {surface} lies on joint {joint}; kill the joint first, and make it again after")]
+    #[error(
+        "edge {edge} of surface {surface} lies on joint {joint}; kill the joint first, and make it again after"
+    )]
     EdgeOnJoint {
         /// Surface.
         surface: SurfaceId,
@@ -107,7 +109,9 @@ pub enum EulerError {
         joint: JointId,
     },
     /// The node lies on a joint.
-    #[error("node {node} of surface {surface} lies on joint {joint}; kill the joint first, and make it again after")]
+    #[error(
+        "node {node} of surface {surface} lies on joint {joint}; kill the joint first, and make it again after"
+    )]
     NodeOnJoint {
         /// Surface.
         surface: SurfaceId,
@@ -228,7 +232,9 @@ pub enum EulerError {
         edge: EdgeId,
     },
     /// Attributes lie on the entity.
-    #[error("{what} of surface {surface} carries attributes; remove them first or triangulate them into edges")]
+    #[error(
+        "{what} of surface {surface} carries attributes; remove them first or triangulate them into edges"
+    )]
     CarriesAttributes {
         /// Surface.
         surface: SurfaceId,

@@ -80,9 +80,8 @@ impl Editor {
         line: AttributeEdgeId,
     ) -> Result<(), EulerError> {
         let s = self.body.checked_surface(surface)?;
-        let between = |l: &AttributeEdge| {
-            l.nodes.len() == 2 && l.nodes.iter().all(|&n| s.ring(surface, n).is_ok())
-        };
+        let between =
+            |l: &AttributeEdge| l.nodes.len() == 2 && l.nodes.iter().all(|&n| s.ring(surface, n).is_ok());
         if !s.attribute_edges.get(line.index()).is_some_and(between) {
             return Err(EulerError::NoRingEdge { surface, line });
         }

@@ -41,11 +41,7 @@ impl Editor {
     ///
     /// # Errors
     /// Unknown surface; a position that is not finite. O(1).
-    pub fn make_vertex_complex(
-        &mut self,
-        surface: SurfaceId,
-        position: DVec3,
-    ) -> Result<NodeId, EulerError> {
+    pub fn make_vertex_complex(&mut self, surface: SurfaceId, position: DVec3) -> Result<NodeId, EulerError> {
         self.body.checked_surface(surface)?.has_room(surface)?;
         if !position.is_finite() {
             return Err(EulerError::NotFinite);
