@@ -53,8 +53,8 @@ fn declared(operation: &Operation, outcome: &Outcome, before: &Body) -> Option<C
                 faces.iter().filter(|f| **f != mesh_kernel::body::NONE).count() as i64
             };
             let partners = before.partners(*surface, *edge);
-            let n = faces_at(*surface, *edge)
-                + partners.iter().map(|(s, d)| faces_at(*s, d.edge())).sum::<i64>();
+            let n =
+                faces_at(*surface, *edge) + partners.iter().map(|(s, d)| faces_at(*s, d.edge())).sum::<i64>();
             let sign = if matches!(outcome, Outcome::EdgeSplit(_)) { 1 } else { -1 };
             Some(Counts { v: sign, e: sign * (1 + n), f: sign * n, ..zero })
         }

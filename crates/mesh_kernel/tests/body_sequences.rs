@@ -8,7 +8,7 @@ mod body_support;
 use body_support::sequences::{collapse, joints_anew, kind_of_edge, refine, some_edge, split, swap};
 use body_support::{Random, add_wires, random_body};
 use mesh_kernel::body::edit::{CollapseOptions, Editor, Guard};
-use mesh_kernel::body::{Body, NodeId};
+use mesh_kernel::body::{AttributeEdge, AttributeNode, Body, EdgeId, NodeId};
 
 /// A body with numbers that are free, and wires.
 fn start(seed: u64) -> Option<Body> {
@@ -20,6 +20,11 @@ fn start(seed: u64) -> Option<Body> {
     let mut editor = Editor::new(body);
     for id in editor.body().surface_ids() {
         editor.set_attributes(id, &[], &[]).unwrap();
+    }
+    // Wires of several edges.
+    for k in 0..8 {
+        let (surface, edge) = some_edge(editor.body(), 4 * k)?;
+        let _ = editor.split_wire(surface, edge, 0.5);
     }
     // Free numbers in an order of their own.
     for _ in 0..random.below(8) {
@@ -120,7 +125,8 @@ fn a_face_split_is_its_sequence() {
     for seed in 0..600 {
         let Some(body) = start(seed) else { continue };
         let mut random = Random(seed ^ 77);
-        let faces: Vec<_> = body.surfaces().flat_map(|(id, s)| s.live_faces().map(move |f| (id, f))).collect();
+        let faces: Vec<_> =
+            body.surfaces().flat_map(|(id, s)| s.live_faces().map(move |f| (id, f))).collect();
         if faces.is_empty() {
             continue;
         }
@@ -128,6 +134,55 @@ fn a_face_split_is_its_sequence() {
         let mut editor = Editor::new(body.clone());
         editor.split_face(surface, face).unwrap();
         let after = editor.into_body();
+        let mut editor = Editor::new(body);
+        if refine(&mut editor, &after).is_some() {
+            same(seed, &editor, &after);
+            seen += 1;
+        }
+    }
+    assert!(seen > 200, "{seen}");
+}
+
+/// The body without attributes.
+fn bare(body: &Body) -> Body {
+    let mut editor = Editor::new(body.clone());
+    for id in editor.body().surface_ids() {
+        editor.set_attributes(id, &[], &[]).unwrap();
+    }
+    editor.into_body()
+}
+
+#[test]
+fn a_face_triangulation_is_its_sequence() {
+    let mut seen = 0;
+    for seed in 0..600 {
+        let Some(body) = start(seed) else { continue };
+        let mut random = Random(seed ^ 77);
+        let faces: Vec<_> =
+            body.surfaces().flat_map(|(id, s)| s.live_faces().map(move |f| (id, f))).collect();
+        if faces.is_empty() {
+            continue;
+        }
+        let (surface, face) = faces[random.below(faces.len())];
+        let mut editor = Editor::new(body.clone());
+        let sides = body.surface(surface).face_edges()[face.index()];
+        let mut nodes = Vec::new();
+        for _ in 0..1 + random.below(4) {
+            let (u, v) = (0.05 + 0.4 * random.unit(), 0.05 + 0.4 * random.unit());
+            let node = if random.below(2) == 0 {
+                AttributeNode::OnEdge { edge: EdgeId(sides[random.below(3)]), u: u + v }
+            } else {
+                AttributeNode::InFace { face, areal: [u, v, 1.0 - u - v] }
+            };
+            nodes.push(editor.add_attribute_node(surface, node).unwrap());
+        }
+        if random.below(2) == 0 {
+            editor.add_attribute_edge(surface, AttributeEdge { name: None, nodes }).unwrap();
+        }
+        if editor.triangulate_face(surface, face).is_err() {
+            continue;
+        }
+        let after = bare(editor.body());
         let mut editor = Editor::new(body);
         if refine(&mut editor, &after).is_some() {
             same(seed, &editor, &after);

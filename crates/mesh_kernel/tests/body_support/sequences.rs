@@ -104,12 +104,8 @@ fn refine_surface(
     for &face in cut.iter().rev() {
         editor.kill_face(id, face).unwrap();
     }
-    let nodes = given(
-        |v| old.is_node(NodeId(v)),
-        |v| new.is_node(NodeId(v)),
-        new.positions().len(),
-        &free[0],
-    );
+    let nodes =
+        given(|v| old.is_node(NodeId(v)), |v| new.is_node(NodeId(v)), new.positions().len(), &free[0]);
     let edges = given(|e| old.is_edge(EdgeId(e)), |e| new.is_edge(EdgeId(e)), new.edges().len(), &free[1]);
     let faces = given(|f| old.is_face(FaceId(f)), |f| new.is_face(FaceId(f)), new.faces().len(), &free[2]);
     let mut edges = edges.into_iter();
@@ -256,9 +252,7 @@ pub fn collapse(editor: &mut Editor, done: &EdgeCollapse, after: &Body) -> Optio
                 let [a, b] = s.edges()[edge.index()].map(kept);
                 assert_eq!(editor.make_edge(id, a, b).unwrap().0, edge);
             }
-            let stands_for = |e: u32| {
-                sides.iter().find(|x| x[0].0 == e).map_or(EdgeId(e), |x| x[1])
-            };
+            let stands_for = |e: u32| sides.iter().find(|x| x[0].0 == e).map_or(EdgeId(e), |x| x[1]);
             for &face in fan.iter().rev() {
                 let sides = s.face_edges()[face.index()].map(stands_for);
                 assert_eq!(editor.make_face(id, sides).unwrap().0, face);

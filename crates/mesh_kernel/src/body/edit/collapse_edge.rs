@@ -16,8 +16,8 @@ use glam::{DVec2, DVec3};
 use super::Editor;
 use super::journal::{Attributes, Record};
 use super::link_condition::{Neighbourhood, Obstacle, Place, obstacle};
-use super::operation::Operation;
 use super::loops::{Loops, lowest_of_whole, rebuild};
+use super::operation::Operation;
 use super::split_edge::{between, release_edge, release_face, release_node};
 use super::stars::{LAST, NEXT, Stars, corner};
 use super::swap_edge::Guard;
@@ -110,7 +110,9 @@ pub enum CollapseError {
         edges: usize,
     },
     /// The boundary loop would have too few edges left.
-    #[error("the boundary loop of surface {surface} at edge {edge} has {edges} edges and needs three; fill it or split one")]
+    #[error(
+        "the boundary loop of surface {surface} at edge {edge} has {edges} edges and needs three; fill it or split one"
+    )]
     LoopTooShort {
         /// Surface.
         surface: SurfaceId,
@@ -120,7 +122,9 @@ pub enum CollapseError {
         edges: usize,
     },
     /// The body's shape would change.
-    #[error("edge {edge} of surface {surface} cannot be collapsed without changing the shape: {obstacle}; split or swap edges near it first")]
+    #[error(
+        "edge {edge} of surface {surface} cannot be collapsed without changing the shape: {obstacle}; split or swap edges near it first"
+    )]
     Shape {
         /// Surface.
         surface: SurfaceId,
@@ -260,8 +264,11 @@ impl Gone {
         let (corners, sides) = (s.faces[face as usize], s.face_edges[face as usize]);
         // The edge runs from corner i to the next.
         let i = if sides[0] == edge { 0 } else { 1 + usize::from(sides[1] != edge) };
-        let (side, into) =
-            if corners[i] == removed { (sides[LAST[i]], sides[NEXT[i]]) } else { (sides[NEXT[i]], sides[LAST[i]]) };
+        let (side, into) = if corners[i] == removed {
+            (sides[LAST[i]], sides[NEXT[i]])
+        } else {
+            (sides[NEXT[i]], sides[LAST[i]])
+        };
         let side_faces = s.edge_faces[side as usize];
         Self {
             face,
@@ -341,8 +348,10 @@ impl Editor {
         }
         let done: Result<EdgeCollapse, std::convert::Infallible> = self.transaction(|editor| {
             let edge = editor.collapse_one(members[0], options.at, share, position, &moved);
-            let partners =
-                members[1..].iter().map(|&m| editor.follow(|e| e.collapse_one(m, None, share, position, &[]))).collect();
+            let partners = members[1..]
+                .iter()
+                .map(|&m| editor.follow(|e| e.collapse_one(m, None, share, position, &[])))
+                .collect();
             Ok(EdgeCollapse { edge, partners })
         });
         let Ok(collapse) = done;
@@ -364,7 +373,13 @@ impl Editor {
 
     /// The condition where both ends are ordinary nodes on no joint, and no joint comes near both: `None` where that is not
     /// so. O(edges at both ends).
-    fn plain(&mut self, surface: SurfaceId, edge: EdgeId, kept: u32, removed: u32) -> Option<Option<Obstacle>> {
+    fn plain(
+        &mut self,
+        surface: SurfaceId,
+        edge: EdgeId,
+        kept: u32,
+        removed: u32,
+    ) -> Option<Option<Obstacle>> {
         let (s, stars) = self.stars_of(surface);
         let faces = s.edge_faces[edge.index()];
         if faces == [NONE; 2] || stars.is_held(kept) || stars.is_held(removed) {
@@ -425,12 +440,29 @@ impl Editor {
             joints.dedup();
             return Err(CollapseError::BothHeld { surface, edge, joints });
         }
+        // Joints without edges: they hold exactly the nodes that would go.
+        let joints = self.point_joints_at(&stars[0].class);
+        if !joints.is_empty() {
+            let (removed, kept) = (NodeId(removed), NodeId(kept));
+            return Err(CollapseError::HeldByJoints { surface, removed, kept, joints });
+        }
         if let Some(obstacle) = obstacle(&stars[0], &stars[1], ab) {
             return Err(self.shape(surface, edge, obstacle));
         }
         let [_, star] = stars;
         *moved = star.class;
         Ok(())
+    }
+
+    fn point_joints_at(&self, nodes: &[Place]) -> Vec<JointId> {
+        let at = |&(surface, v): &Place| {
+            let chains = &self.body.surface(surface).chains;
+            chains.iter().filter(move |c| c.edges.is_empty() && c.start.0 == v).filter_map(|c| c.joint)
+        };
+        let mut joints: Vec<JointId> = nodes.iter().flat_map(at).collect();
+        joints.sort_unstable();
+        joints.dedup();
+        joints
     }
 
     /// Joints at nodes, in order, other than the one that an edge lies on; that one where there is no other.
@@ -463,9 +495,9 @@ impl Editor {
             stars.edges_at(s, v, &mut edges);
             for face in faces_at(s, &edges, v) {
                 // Faces at one of the edges go.
-                let gone = members.iter().any(|m| {
-                    m.surface == surface && s.edge_faces[m.edge.index()].contains(&face)
-                });
+                let gone = members
+                    .iter()
+                    .any(|m| m.surface == surface && s.edge_faces[m.edge.index()].contains(&face));
                 if !gone && turned(s, face, corner(s, face, v), to) {
                     return Err(CollapseError::Turns { surface, edge, face: FaceId(face) });
                 }
@@ -491,7 +523,8 @@ impl Editor {
         let faces = edge_faces.map(|f| (f != NONE).then(|| Gone::of(s, f, edge.0, removed)));
         let sides = faces.map(|g| g.map_or(NONE, |g| g.side));
         let spokes = edges.iter().filter(|&&e| e != edge.0 && !sides.contains(&e));
-        let spokes = spokes.map(|&e| [e, s.edges[e as usize][0] ^ s.edges[e as usize][1] ^ removed]).collect();
+        let spokes =
+            spokes.map(|&e| [e, s.edges[e as usize][0] ^ s.edges[e as usize][1] ^ removed]).collect();
         let fan = faces_at(s, &edges, removed).filter(|f| !edge_faces.contains(f)).collect();
         let touched = edges.iter().any(|&e| s.edge_chain[e as usize] != 0);
         let unsettled = touched && unsettles(s, edge, &faces);
@@ -589,9 +622,11 @@ impl Editor {
                 let held = stars.is_held(c.kept);
                 stars.recount(s, c.kept, &around, held);
             } else {
-                let other = c.faces.iter().flatten().map(|g| g.into).chain(c.spokes.iter().map(|s| s[0])).next();
+                let other =
+                    c.faces.iter().flatten().map(|g| g.into).chain(c.spokes.iter().map(|s| s[0])).next();
                 // A wire's free end: what is left at the kept node is not at hand.
-                let other = other.or_else(|| s.edges.iter().position(|x| x.contains(&c.kept)).map(|e| e as u32));
+                let other =
+                    other.or_else(|| s.edges.iter().position(|x| x.contains(&c.kept)).map(|e| e as u32));
                 stars.lose(c.kept, c.edge.0, c.removed, other.unwrap_or(NONE));
                 for &[e, far] in &c.spokes {
                     stars.gain(c.kept, e, far);

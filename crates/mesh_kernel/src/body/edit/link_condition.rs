@@ -41,7 +41,9 @@ pub enum Obstacle {
         faces: [(SurfaceId, FaceId); 2],
     },
     /// Both other sides of a face at the edge end a sheet or lie on joints.
-    #[error("the face at it with node {node} of surface {surface} has all its other sides on the boundary or on joints")]
+    #[error(
+        "the face at it with node {node} of surface {surface} has all its other sides on the boundary or on joints"
+    )]
     LastFace {
         /// Surface.
         surface: SurfaceId,
@@ -113,10 +115,13 @@ impl WeldedStar {
         };
         match special[..] {
             [] => {
-                let (Some((&start, _)), false) = (self.spokes.first_key_value(), self.wedges.is_empty()) else {
+                let (Some((&start, _)), false) = (self.spokes.first_key_value(), self.wedges.is_empty())
+                else {
                     return 2;
                 };
-                let Some(first) = self.wedges.iter().position(|w| w.spokes.contains(&start)) else { return 2 };
+                let Some(first) = self.wedges.iter().position(|w| w.spokes.contains(&start)) else {
+                    return 2;
+                };
                 let (end, between) = walk(start, first);
                 if end == start && between + 1 == self.spokes.len() { 0 } else { 2 }
             }
@@ -256,7 +261,9 @@ impl<'a> Neighbourhood<'a> {
         from.iter().any(|&(surface, v)| {
             let (s, stars) = self.editor.stars_of(surface);
             stars.edges_at(s, v, &mut edges);
-            edges.iter().any(|&e| to.contains(&(surface, s.edges[e as usize][0] ^ s.edges[e as usize][1] ^ v)))
+            edges
+                .iter()
+                .any(|&e| to.contains(&(surface, s.edges[e as usize][0] ^ s.edges[e as usize][1] ^ v)))
         })
     }
 

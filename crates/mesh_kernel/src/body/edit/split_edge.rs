@@ -94,7 +94,10 @@ impl Editor {
         }
         let done: Result<EdgeSplit, std::convert::Infallible> = self.transaction(|editor| {
             let edge = editor.split_one(surface, edge, at, None);
-            let partners = partners.iter().map(|&(t, e, at)| editor.follow(|x| x.split_one(t, e, at, Some(position)))).collect();
+            let partners = partners
+                .iter()
+                .map(|&(t, e, at)| editor.follow(|x| x.split_one(t, e, at, Some(position))))
+                .collect();
             Ok(EdgeSplit { edge, partners })
         });
         let Ok(split) = done;

@@ -201,7 +201,8 @@ impl Stars {
         // Both ways at once: the two walks do not wait for each other's memory.
         let (mut ahead, mut behind) = (Walk::ahead(s, face, i), Walk::behind(s, face, i));
         let At { degree, .. } = self.nodes[c as usize];
-        if degree > HUB_DEGREE && degree & HELD == 0
+        if degree > HUB_DEGREE
+            && degree & HELD == 0
             && let Some(hub) = self.hub(s, c)
         {
             return hub.neighbours.contains(&d);
@@ -332,7 +333,9 @@ impl Stars {
             hub.neighbours.remove(&far);
             hub.neighbours.insert(new_far);
         }
-        if edge != new && let Some(list) = self.singular.as_mut().and_then(|all| all.get_mut(&node)) {
+        if edge != new
+            && let Some(list) = self.singular.as_mut().and_then(|all| all.get_mut(&node))
+        {
             list.iter_mut().filter(|e| **e == edge).for_each(|e| *e = new);
         }
     }
