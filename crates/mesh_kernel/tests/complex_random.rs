@@ -444,3 +444,67 @@ fn random_lattices_stay_sound_with_their_positions() {
     }
     assert!(met.most_uses >= 4 && met.most_cavities >= 1, "{met:?}");
 }
+
+/// Replaces a number somewhere in a JSON value.
+fn damage(value: &mut serde_json::Value, random: &mut Random) {
+    use serde_json::Value;
+    match value {
+        Value::Number(_) => {
+            let hostile = [0u64, 1, 2, 3, 5, 8, 13, 99, u64::from(u32::MAX), u64::from(u32::MAX) - 1];
+            *value = random.pick(&hostile).unwrap().into();
+        }
+        Value::Bool(b) => *b = !*b,
+        Value::Array(list) if !list.is_empty() => {
+            let i = random.below(list.len());
+            match random.below(12) {
+                0 => drop(list.remove(i)),
+                1 => list.push(list[i].clone()),
+                2 => list.reverse(),
+                _ => damage(&mut list[i], random),
+            }
+        }
+        Value::Object(map) if !map.is_empty() => {
+            let i = random.below(map.len());
+            if let Some((_, inner)) = map.iter_mut().nth(i) {
+                damage(inner, random);
+            }
+        }
+        _ => {}
+    }
+}
+
+#[test]
+fn damaged_journals_are_refused_or_sound() {
+    let mut random = Random(99);
+    let mut editor = Editor::default();
+    let mut count = 0;
+    while count < 80 {
+        if let Some(operation) = operation(editor.complex(), &mut random)
+            && editor.apply(&operation).is_ok()
+        {
+            count += 1;
+        }
+    }
+    let whole = serde_json::to_value(editor.journal()).unwrap();
+    let (mut read, mut refused, mut sound) = (0, 0, 0);
+    for _ in 0..wanted(3000) {
+        let mut damaged = whole.clone();
+        for _ in 0..1 + random.below(3) {
+            damage(&mut damaged["done"], &mut random);
+        }
+        let Ok(journal) = serde_json::from_value::<Journal>(damaged) else { continue };
+        read += 1;
+        let mut replayed = Editor::default();
+        match replayed.replay(&journal) {
+            Ok(()) => sound += 1,
+            Err(error) => {
+                refused += 1;
+                assert!(!error.to_string().is_empty());
+            }
+        }
+        assert_sound_topology(replayed.complex());
+        while replayed.undo() {}
+        assert_bit_equal(replayed.complex(), &Complex::new());
+    }
+    assert!(read > 100 && refused > 50 && sound > 10, "{read} {refused} {sound}");
+}
