@@ -167,7 +167,8 @@ impl Document {
         let placement = document.placement();
         // Not a number fails every comparison.
         let turned = placement.rotation * placement.rotation.transpose() - DMat3::IDENTITY;
-        let rigid = turned.to_cols_array().iter().all(|v| v.abs() < 1e-6) && placement.rotation.determinant() > 0.0;
+        let rigid =
+            turned.to_cols_array().iter().all(|v| v.abs() < 1e-6) && placement.rotation.determinant() > 0.0;
         if !(placement.scale > 0.0 && rigid) {
             return Err(DocumentError::Placement);
         }

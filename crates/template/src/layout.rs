@@ -159,7 +159,8 @@ impl Names {
     fn find(&self, name: &str, path: impl Fn() -> String, what: &str) -> Result<u32, TemplateError> {
         self.index.get(name).copied().ok_or_else(|| {
             // Whoever writes names beyond a line's length is not helped by a guess that takes long.
-            let mut near: Vec<&String> = self.index.keys().filter(|k| k.len().max(name.len()) <= 100).collect();
+            let mut near: Vec<&String> =
+                self.index.keys().filter(|k| k.len().max(name.len()) <= 100).collect();
             near.sort_by_cached_key(|k| distance(k, name));
             let hint = near.first().map(|n| format!("; did you mean `{n}`?")).unwrap_or_default();
             TemplateError::format(path(), format!("there is no {what} `{name}`{hint}"))

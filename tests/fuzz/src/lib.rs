@@ -197,7 +197,17 @@ pub fn fuzz(reader: Reader, allocator: &'static CountingAllocator) -> Report {
             let finds = vec![keep(name, &input, what)];
             let (inputs, seconds) = (number, start.elapsed().as_secs_f64());
             let (refused, outcomes, peak, peak_factor) = (0, 0, 0, 0.0);
-            return Report { name, seconds, inputs, refused, outcomes, slowest: worked, peak, peak_factor, finds };
+            return Report {
+                name,
+                seconds,
+                inputs,
+                refused,
+                outcomes,
+                slowest: worked,
+                peak,
+                peak_factor,
+                finds,
+            };
         }
     }
 }
@@ -227,7 +237,8 @@ thread_local! {
 }
 
 fn keep(name: &str, input: &[u8], what: String) -> Find {
-    let hash = input.iter().fold(0xcbf2_9ce4_8422_2325u64, |h, b| (h ^ u64::from(*b)).wrapping_mul(0x100_0000_01b3));
+    let hash =
+        input.iter().fold(0xcbf2_9ce4_8422_2325u64, |h, b| (h ^ u64::from(*b)).wrapping_mul(0x100_0000_01b3));
     let file = finds_folder().join(format!("{name}-{hash:016x}.bin"));
     let what = match std::fs::write(&file, input) {
         Ok(()) => what,
@@ -302,7 +313,8 @@ struct Run<'a> {
 impl Run<'_> {
     fn next(&self, random: &mut Random) -> Vec<u8> {
         let of = |random: &mut Random| {
-            let all = if self.refused.is_empty() || random.below(8) < 5 { &self.sound } else { &self.refused };
+            let all =
+                if self.refused.is_empty() || random.below(8) < 5 { &self.sound } else { &self.refused };
             // Half of the time what was found last: where there is something new there is often more.
             let fresh = if random.one_in(2) { all.len().saturating_sub(32) } else { 0 };
             &all[fresh + random.below(all.len() - fresh)]

@@ -18,7 +18,9 @@ pub(super) fn parse(bytes: &[u8]) -> Result<TriMesh, ReadError> {
         reason: format!("the glTF document cannot be understood: {}", shortened(&error.to_string())),
     })?;
     if !document.asset.version.starts_with("2.") {
-        return Err(ReadError::Unsupported { what: format!("glTF version '{}'", shortened(&document.asset.version)) });
+        return Err(ReadError::Unsupported {
+            what: format!("glTF version '{}'", shortened(&document.asset.version)),
+        });
     }
     // Extensions that change how geometry is stored; materials, lights and the like do not matter here.
     let geometry = |name: &&String| name.contains("compression");

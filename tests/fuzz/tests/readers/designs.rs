@@ -13,7 +13,11 @@ use crate::run;
 
 /// A JSON value of two bytes takes 32, a map's entry of six bytes 100, growing lists twice that and the old while they
 /// move; a template is there three times while it is read: as a tree, as the file, written out.
-fn reader(name: &'static str, seeds: Vec<Vec<u8>>, read: impl Fn(&[u8]) -> Reading + Send + 'static) -> Reader {
+fn reader(
+    name: &'static str,
+    seeds: Vec<Vec<u8>>,
+    read: impl Fn(&[u8]) -> Reading + Send + 'static,
+) -> Reader {
     Reader {
         name,
         shape: Shape::Json,
@@ -61,7 +65,12 @@ fn template() {
                 let file = template.file();
                 let again = Template::from_json(&template.to_json()).expect("what was written is read");
                 assert_eq!(again.file(), file);
-                Reading::Sound(vec![file.nodes.len(), file.surfaces.len(), file.lines.len(), file.pieces.len()])
+                Reading::Sound(vec![
+                    file.nodes.len(),
+                    file.surfaces.len(),
+                    file.lines.len(),
+                    file.pieces.len(),
+                ])
             }
             Err(error) => Reading::Refused(error.to_string()),
         }
@@ -99,7 +108,10 @@ fn design() {
             assert!(mesh.faces.as_flattened().iter().all(|v| (*v as usize) < mesh.positions.len()));
             let placement = document.placement();
             assert!(placement.scale > 0.0 && (placement.rotation.determinant() - 1.0).abs() < 1e-3);
-            assert_eq!(Document::from_bytes(&document.to_bytes()).expect("what was written is read"), document);
+            assert_eq!(
+                Document::from_bytes(&document.to_bytes()).expect("what was written is read"),
+                document
+            );
             Reading::Sound(vec![mesh.positions.len(), mesh.faces.len(), document.nodes.len()])
         }
         Err(error) => Reading::Refused(error.to_string()),
@@ -108,7 +120,8 @@ fn design() {
 
 #[test]
 fn measurements() {
-    let seeds = presets().iter().step_by(5).filter_map(|p| serde_json::to_vec(&p.measurements).ok()).collect();
+    let seeds =
+        presets().iter().step_by(5).filter_map(|p| serde_json::to_vec(&p.measurements).ok()).collect();
     run(reader("measurements", seeds, |bytes| {
         let given: Measurements = match serde_json::from_slice(bytes) {
             Ok(given) => given,

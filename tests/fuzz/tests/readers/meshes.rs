@@ -17,10 +17,7 @@ fn saddle(n: u32) -> TriMesh {
     let nodes = (0..=n).flat_map(|i| (0..=n).map(move |j| place(i, j)));
     let cells = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
     let faces = cells.flat_map(|(i, j)| {
-        [
-            [node(i, j), node(i + 1, j), node(i + 1, j + 1)],
-            [node(i, j), node(i + 1, j + 1), node(i, j + 1)],
-        ]
+        [[node(i, j), node(i + 1, j), node(i + 1, j + 1)], [node(i, j), node(i + 1, j + 1), node(i, j + 1)]]
     });
     TriMesh::new(nodes.collect(), faces.collect())
 }
@@ -29,8 +26,10 @@ fn saddle(n: u32) -> TriMesh {
 fn written(format: Format) -> Vec<Vec<u8>> {
     let bare = saddle(2);
     let mut full = saddle(4);
-    full.corner_uvs = Some(full.faces.iter().map(|f| f.map(|v| DVec2::new(f64::from(v) / 8.0, 0.5))).collect());
-    full.groups = vec![Group { name: "front".into(), faces: 0..10 }, Group { name: "back".into(), faces: 10..32 }];
+    full.corner_uvs =
+        Some(full.faces.iter().map(|f| f.map(|v| DVec2::new(f64::from(v) / 8.0, 0.5))).collect());
+    full.groups =
+        vec![Group { name: "front".into(), faces: 0..10 }, Group { name: "back".into(), faces: 10..32 }];
     let mut files = vec![to_bytes(format, &saddle(12), &WriteOptions::default())];
     for mesh in [bare, full] {
         for encoding in [Encoding::Binary, Encoding::Ascii] {
@@ -98,7 +97,8 @@ fn reader(name: &'static str, format: Format, words: &'static [&'static str]) ->
 
 #[test]
 fn obj() {
-    let words = &["v ", "vt ", "vn ", "f ", "g ", "o ", "l ", "usemtl ", "/", "//", "\\\n", "\n", "#", "1/1/1", "-1"];
+    let words =
+        &["v ", "vt ", "vn ", "f ", "g ", "o ", "l ", "usemtl ", "/", "//", "\\\n", "\n", "#", "1/1/1", "-1"];
     let mut reader = reader("OBJ", Format::Obj, words);
     reader.seeds.push(
         b"o a\r\nv 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nvt 0 0\r\nusemtl m\r\nf -3/1/1 -2//2 -1/1 \\\r\n 1\r\nf 1 2 3 1\r\n"
@@ -110,16 +110,40 @@ fn obj() {
 #[test]
 fn ply() {
     let words = &[
-        "ply\n", "format ascii 1.0\n", "format binary_little_endian 1.0\n", "format binary_big_endian 1.0\n",
-        "element vertex 3\n", "element face 1\n", "element tristrips 1\n", "property list uchar int vertex_indices\n",
-        "property list uchar float texcoord\n", "property float s\n", "property float t\n", "property uchar red\n",
-        "property double x\n", "end_header\n", "comment ", "char", "uchar", "short", "ushort", "int", "uint", "float",
-        "double", "vertex", "face", "tristrips", "vertex_indices", "list",
+        "ply\n",
+        "format ascii 1.0\n",
+        "format binary_little_endian 1.0\n",
+        "format binary_big_endian 1.0\n",
+        "element vertex 3\n",
+        "element face 1\n",
+        "element tristrips 1\n",
+        "property list uchar int vertex_indices\n",
+        "property list uchar float texcoord\n",
+        "property float s\n",
+        "property float t\n",
+        "property uchar red\n",
+        "property double x\n",
+        "end_header\n",
+        "comment ",
+        "char",
+        "uchar",
+        "short",
+        "ushort",
+        "int",
+        "uint",
+        "float",
+        "double",
+        "vertex",
+        "face",
+        "tristrips",
+        "vertex_indices",
+        "list",
     ];
     let mut reader = reader("PLY", Format::Ply, words);
-    let mut strips = b"ply\nformat binary_big_endian 1.0\nelement vertex 4\nproperty float x\nproperty float y\n\
+    let mut strips =
+        b"ply\nformat binary_big_endian 1.0\nelement vertex 4\nproperty float x\nproperty float y\n\
         property float z\nelement tristrips 1\nproperty list uint short vertex_indices\nend_header\n"
-        .to_vec();
+            .to_vec();
     strips.extend([0u8; 48]);
     strips.extend([0, 0, 0, 6, 0, 0, 0, 1, 0, 2, 255, 255, 0, 3, 0, 1]);
     reader.seeds.push(strips);
@@ -134,24 +158,59 @@ fn ply() {
 
 #[test]
 fn stl() {
-    let words = &["solid ", "endsolid", "facet normal 0 0 1\n", "endfacet\n", "outer loop\n", "endloop\n", "vertex ", "\0"];
+    let words = &[
+        "solid ",
+        "endsolid",
+        "facet normal 0 0 1\n",
+        "endfacet\n",
+        "outer loop\n",
+        "endloop\n",
+        "vertex ",
+        "\0",
+    ];
     run(reader("STL", Format::Stl, words));
 }
 
 #[test]
 fn off() {
-    let words = &["OFF", "COFF", "STOFF", "NOFF", "4OFF", "nOFF", "BINARY", "#", "\n", "3 0 1 2\n", "4 0 1 2 3\n"];
+    let words =
+        &["OFF", "COFF", "STOFF", "NOFF", "4OFF", "nOFF", "BINARY", "#", "\n", "3 0 1 2\n", "4 0 1 2 3\n"];
     let mut reader = reader("OFF", Format::Off, words);
-    reader.seeds.push(b"CNOFF # colours\n\n4 1 0\n0 0 0 1 0 0 255\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3 0.5 0.5 1\n".to_vec());
+    reader.seeds.push(
+        b"CNOFF # colours\n\n4 1 0\n0 0 0 1 0 0 255\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3 0.5 0.5 1\n".to_vec(),
+    );
     run(reader);
 }
 
 #[test]
 fn gltf() {
     let words = &[
-        "POSITION", "TEXCOORD_0", "VEC2", "VEC3", "SCALAR", "5120", "5121", "5122", "5123", "5125", "5126", "4", "5",
-        "6", "matrix", "rotation", "scale", "translation", "children", "byteStride", "byteOffset", "sparse", "mode",
-        "indices", "KHR_draco_mesh_compression", "data:application/octet-stream;base64,AAAA",
+        "POSITION",
+        "TEXCOORD_0",
+        "VEC2",
+        "VEC3",
+        "SCALAR",
+        "5120",
+        "5121",
+        "5122",
+        "5123",
+        "5125",
+        "5126",
+        "4",
+        "5",
+        "6",
+        "matrix",
+        "rotation",
+        "scale",
+        "translation",
+        "children",
+        "byteStride",
+        "byteOffset",
+        "sparse",
+        "mode",
+        "indices",
+        "KHR_draco_mesh_compression",
+        "data:application/octet-stream;base64,AAAA",
     ];
     let mut reader = reader("glTF", Format::Glb, words);
     reader.shape = Shape::Gltf;
