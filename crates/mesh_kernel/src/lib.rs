@@ -8,6 +8,7 @@
 //! Lengths are millimetres and angles radians everywhere inside; files convert at the door.
 
 pub mod body;
+pub mod complex;
 pub mod files;
 pub mod query;
 pub mod tri_mesh;

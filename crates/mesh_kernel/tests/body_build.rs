@@ -3,8 +3,9 @@
 // A test that cannot go on fails.
 #![allow(clippy::unwrap_used)]
 
+use mesh_kernel::body::edit::EulerError;
 use mesh_kernel::body::{
-    AddError, Body, BuildError, ChainSpec, DirectedEdge, FaceId, JointId, JointSpec, NodeId, Side, SurfaceId,
+    Body, BuildError, ChainSpec, DirectedEdge, FaceId, JointId, JointSpec, NodeId, Side, SurfaceId,
     SurfaceSpec,
 };
 use mesh_kernel::glam::DVec3;
@@ -266,10 +267,10 @@ fn a_body_built_up_step_by_step_is_sound_at_every_step() {
         body.add_edge(a, nodes[p], nodes[q]).unwrap();
     }
     sound(&body, [1, 2, 0]);
-    assert!(matches!(body.add_edge(a, nodes[1], nodes[0]), Err(AddError::EdgeExists { .. })));
+    assert!(matches!(body.add_edge(a, nodes[1], nodes[0]), Err(EulerError::EdgeExists { .. })));
     body.add_face(a, [nodes[0], nodes[1], nodes[3]]).unwrap();
     sound(&body, [1, 1, 0]);
-    assert!(matches!(body.add_face(a, [nodes[0], nodes[1], nodes[2]]), Err(AddError::SideTaken { .. })));
+    assert!(matches!(body.add_face(a, [nodes[0], nodes[1], nodes[2]]), Err(EulerError::SideTaken { .. })));
     body.add_face(a, [nodes[0], nodes[3], nodes[2]]).unwrap();
     sound(&body, [1, 0, 0]);
     assert_eq!(body.surface(a).loops().len(), 1);
@@ -297,7 +298,7 @@ fn a_body_built_up_step_by_step_is_sound_at_every_step() {
         assert_eq!(body.joint(JointId(0)).radial().len(), sheets);
         if sheets == 1 {
             let refused = body.add_face(b, [NodeId(1), NodeId(0), NodeId(2)]);
-            assert!(matches!(refused, Err(AddError::EdgeOnJoint { .. })));
+            assert!(matches!(refused, Err(EulerError::EdgeOnJoint { .. })));
         }
         let face = FaceId(body.surface(a).faces().len() as u32 - 1);
         body.split_face(a, face).unwrap();

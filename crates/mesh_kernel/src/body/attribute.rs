@@ -4,13 +4,15 @@
 use std::cell::OnceCell;
 
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 use super::adjacency::EdgeIndex;
 use super::ids::{AttributeEdgeId, AttributeNodeId, EdgeId, FaceId, NONE};
 use super::surface::Surface;
 
 /// Where an attribute node lies.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum AttributeNode {
     /// On an edge (ATTRIB_EDGENODE): 0 at its first node, 1 at its second.
     OnEdge {
@@ -37,7 +39,7 @@ pub(crate) enum Carrier {
 }
 
 /// A polyline over the surface (ATTRIB_EDGE): two nodes that follow each other lie in, or on the sides of, one face.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct AttributeEdge {
     /// What the line means.
     pub name: Option<String>,
@@ -149,8 +151,8 @@ impl Surface {
 
     pub(crate) fn has_host(&self, node: &AttributeNode) -> bool {
         match node {
-            AttributeNode::OnEdge { edge, .. } => edge.index() < self.edges.len(),
-            AttributeNode::InFace { face, .. } => face.index() < self.faces.len(),
+            AttributeNode::OnEdge { edge, .. } => self.is_edge(*edge),
+            AttributeNode::InFace { face, .. } => self.is_face(*face),
         }
     }
 

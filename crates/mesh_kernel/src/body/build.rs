@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 use super::Body;
 use super::chain::{Chain, Loop};
@@ -26,7 +27,7 @@ pub struct SurfaceSpec {
 }
 
 /// Chains to be joined.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct JointSpec {
     /// Name.
     pub name: Option<String>,
@@ -35,7 +36,7 @@ pub struct JointSpec {
 }
 
 /// A chain by its nodes.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ChainSpec {
     /// Index of the surface in the list given to [`Body::build`].
     pub surface: usize,
@@ -283,7 +284,7 @@ impl Body {
     pub(super) fn meet(&mut self, labels: &[JointLabel]) -> Result<(), BuildError> {
         for (j, label) in labels.iter().enumerate() {
             let joint = JointId(j as u32);
-            let first_use = self.joints[j].uses[0];
+            let Some(&first_use) = self.joints[j].uses.first() else { continue };
             let first = self.joint_nodes(joint, 0);
             for i in 1..self.joints[j].uses.len() {
                 let own = self.joints[j].uses[i];
@@ -356,7 +357,7 @@ pub(super) fn run_of(
         nodes.push(start);
     }
     let missing = |nodes| BuildError::NoEdge { joint: label.clone(), surface: surface.name.clone(), nodes };
-    if let Some(&v) = nodes.iter().find(|&&v| v as usize >= surface.positions.len()) {
+    if let Some(&v) = nodes.iter().find(|&&v| !surface.is_node(NodeId(v))) {
         return Err(missing([v, v]));
     }
     let mut edges = Vec::with_capacity(nodes.len());
@@ -425,7 +426,7 @@ pub(super) fn place_run(
         }
         None => false,
     };
-    let id = ChainId(surface.chains.len() as u32);
+    let id = ChainId(surface.slots.chains.next(surface.chains.len()));
     for d in &run.edges {
         if let Some(taken) = surface.edge_chain(d.edge()) {
             let other = surface.chains.get(taken.index()).and_then(|c| c.joint).map_or(joint, JointId::index);
@@ -447,7 +448,11 @@ pub(super) fn place_run(
         edges.reverse();
         edges.iter_mut().for_each(|d| *d = d.flipped());
     }
-    surface.chains.push(Chain { start, edges, on_loop: None, joint: Some(JointId(joint as u32)) });
+    let chain = Chain { start, edges, on_loop: None, joint: Some(JointId(joint as u32)) };
+    match surface.slots.chains.take() {
+        Some(free) => surface.chains[free as usize] = chain,
+        None => surface.chains.push(chain),
+    }
     Ok(JointUse { surface: SurfaceId(run.surface), chain: id, reversed })
 }
 

@@ -82,13 +82,15 @@ fn along(a: [f64; 3], b: [f64; 3], p: [f64; 3]) -> f64 {
 }
 
 impl Surface {
-    /// Whether two attribute nodes lie on different sides of place `at` of an edge that carries both.
-    fn straddles(&self, a: &AttributeNode, b: &AttributeNode, e: u32, at: f64) -> bool {
-        let parameter = |n: &AttributeNode| match *n {
+    /// Parameter on an edge of an attribute node that lies on it, its ends included.
+    fn parameter_on(&self, node: &AttributeNode, e: u32) -> Option<f64> {
+        match *node {
             AttributeNode::OnEdge { edge, u } if edge.0 == e => Some(u),
-            _ => self.at_node(n).map(|v| if v == self.edges[e as usize][0] { 0.0 } else { 1.0 }),
-        };
-        matches!((parameter(a), parameter(b)), (Some(u), Some(w)) if (u - at) * (w - at) < 0.0)
+            _ => {
+                let v = self.at_node(node)?;
+                Some(if v == self.edges[e as usize][0] { 0.0 } else { 1.0 })
+            }
+        }
     }
 
     /// Moves attributes to the parts of their hosts, before the surface itself is changed.
@@ -98,6 +100,16 @@ impl Surface {
     pub(crate) fn carry_attributes(
         &mut self,
         halves: impl Fn(u32) -> Option<([EdgeId; 2], f64)>,
+        pieces: impl Fn(u32) -> Option<Piece>,
+    ) {
+        let parts = |e| halves(e).map(|([first, second], at)| vec![(first, at), (second, 1.0)]);
+        self.carry_attributes_to_parts(parts, pieces);
+    }
+
+    /// The same where edges are cut into any number of parts: each with the parameter of its far end on the old edge.
+    pub(crate) fn carry_attributes_to_parts(
+        &mut self,
+        parts: impl Fn(u32) -> Option<Vec<(EdgeId, f64)>>,
         pieces: impl Fn(u32) -> Option<Piece>,
     ) {
         let index = OnceCell::new();
@@ -110,36 +122,40 @@ impl Surface {
                 nodes.push(n);
                 let Some(&next) = line.nodes.get(i + 1) else { break };
                 let [a, b] = [n, next].map(|n| &old[n.index()]);
+                let mut add = |node: AttributeNode| {
+                    nodes.push(AttributeNodeId((old.len() + added.len()) as u32));
+                    added.push(node);
+                };
                 let f = match self.carrier(a, b, &index) {
                     Some(Carrier::Face(f)) => f,
                     Some(Carrier::Edge(e)) => {
-                        if let Some(([first, _], at)) = halves(e)
-                            && self.straddles(a, b, e, at)
-                        {
-                            nodes.push(AttributeNodeId((old.len() + added.len()) as u32));
-                            added.push(AttributeNode::OnEdge { edge: first, u: 1.0 });
+                        let (Some(u), Some(w)) = (self.parameter_on(a, e), self.parameter_on(b, e)) else {
+                            continue;
+                        };
+                        let mut passed: Vec<(EdgeId, f64)> = parts(e).unwrap_or_default();
+                        passed.retain(|&(_, at)| (u - at) * (w - at) < 0.0);
+                        if u > w {
+                            passed.reverse();
                         }
+                        passed.iter().for_each(|&(edge, _)| add(AttributeNode::OnEdge { edge, u: 1.0 }));
                         continue;
                     }
                     None => continue,
                 };
                 let Some(piece) = pieces(f) else { continue };
                 let (Some(p), Some(q)) = (self.areal_in(a, f), self.areal_in(b, f)) else { continue };
-                for node in piece.crossings(p, q) {
-                    nodes.push(AttributeNodeId((old.len() + added.len()) as u32));
-                    added.push(node);
-                }
+                piece.crossings(p, q).into_iter().for_each(&mut add);
             }
             line.nodes = nodes;
         }
         for node in &mut self.attribute_nodes {
             match *node {
                 AttributeNode::OnEdge { edge, u } => {
-                    if let Some(([first, second], at)) = halves(edge.0) {
-                        let (edge, u) =
-                            if u <= at { (first, u / at) } else { (second, (u - at) / (1.0 - at)) };
-                        *node = AttributeNode::OnEdge { edge, u };
-                    }
+                    let Some(parts) = parts(edge.0) else { continue };
+                    let k = parts.iter().position(|&(_, end)| u <= end).unwrap_or(parts.len() - 1);
+                    let start = if k == 0 { 0.0 } else { parts[k - 1].1 };
+                    let (edge, end) = parts[k];
+                    *node = AttributeNode::OnEdge { edge, u: (u - start) / (end - start) };
                 }
                 AttributeNode::InFace { face, areal } => {
                     if let Some(piece) = pieces(face.0) {

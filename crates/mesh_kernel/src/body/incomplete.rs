@@ -1,150 +1,77 @@
-//! Bodies built up step by step: nodes that stand alone, wires, single faces, joints.
+//! Bodies built up step by step, without a journal: nodes that stand alone, wires, single faces, joints.
 //!
 //! A surface is sound at every step (K1: it may be *incomplete*), so a designer can stop anywhere. Whole patches are made
-//! faster by [`Body::build`].
+//! faster by [`Body::build`]. Whoever wants to undo works with an [`Editor`], whose operators these are.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use super::Body;
 use super::build::{BuildError, JointLabel, JointSpec, LoopPlaces, make_loop, place_run, run_of};
-use super::ids::{EdgeId, FaceId, JointId, NONE, NodeId, SurfaceId};
+use super::edit::{Editor, EulerError, FaceSplit, SplitFaceError};
+use super::ids::{EdgeId, FaceId, JointId, NodeId, SurfaceId};
 use super::joint::Joint;
 use super::surface::{NO_CHAIN, Surface};
 
-/// Why an entity was not added. Nothing is changed then.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum AddError {
-    /// No such surface.
-    #[error("the body has no surface {0}")]
-    NoSurface(SurfaceId),
-    /// No such node.
-    #[error("surface {surface} has no node {node}")]
-    NoNode {
-        /// Surface.
-        surface: SurfaceId,
-        /// Node.
-        node: NodeId,
-    },
-    /// A position is not finite.
-    #[error("a position must be finite numbers")]
-    NotFinite,
-    /// An entity names one node twice.
-    #[error("node {0} is named twice")]
-    RepeatedNode(NodeId),
-    /// The nodes are joined already.
-    #[error("surface {surface}: edge {edge} joins these nodes already")]
-    EdgeExists {
-        /// Surface.
-        surface: SurfaceId,
-        /// Edge.
-        edge: EdgeId,
-    },
-    /// A face runs over the edge in this direction already.
-    #[error(
-        "surface {surface}: face {face} runs over edge {edge} in the same direction; turn the new face round"
-    )]
-    SideTaken {
-        /// Surface.
-        surface: SurfaceId,
-        /// Edge.
-        edge: EdgeId,
-        /// The face there.
-        face: FaceId,
-    },
-    /// The edge lies on a joint, which a further face would change.
-    #[error("surface {surface}: edge {edge} lies on joint {joint}; make faces before their joints")]
-    EdgeOnJoint {
-        /// Surface.
-        surface: SurfaceId,
-        /// Edge.
-        edge: EdgeId,
-        /// Joint.
-        joint: JointId,
-    },
-}
-
 impl Body {
+    /// Runs operators that nobody is going to undo.
+    fn edit<T>(&mut self, edit: impl FnOnce(&mut Editor) -> T) -> T {
+        let mut editor = Editor::without_journal(std::mem::take(self));
+        let result = edit(&mut editor);
+        *self = editor.into_body();
+        result
+    }
+
     /// Adds an empty surface.
     pub fn add_surface(&mut self, name: &str) -> SurfaceId {
-        self.surfaces.push(Surface { name: name.into(), ..Surface::default() });
-        SurfaceId(self.surfaces.len() as u32 - 1)
+        self.edit(|e| e.add_surface(name))
     }
 
-    fn checked(&self, surface: SurfaceId, nodes: &[NodeId]) -> Result<&Surface, AddError> {
-        let s = self.surfaces.get(surface.index()).ok_or(AddError::NoSurface(surface))?;
-        for (i, &node) in nodes.iter().enumerate() {
-            if node.index() >= s.positions.len() {
-                return Err(AddError::NoNode { surface, node });
-            }
-            if nodes[..i].contains(&node) {
-                return Err(AddError::RepeatedNode(node));
-            }
-        }
-        Ok(s)
-    }
-
-    /// Adds a node that stands alone. Backup and planar positions, where the surface has them, get the position and zero.
+    /// Adds a node that stands alone: [`Editor::make_vertex_complex`].
     ///
     /// # Errors
     /// Unknown surface; a position that is not finite.
-    pub fn add_node(&mut self, surface: SurfaceId, position: DVec3) -> Result<NodeId, AddError> {
-        self.checked(surface, &[])?;
-        if !position.is_finite() {
-            return Err(AddError::NotFinite);
-        }
-        let s = self.surface_mut(surface);
-        if s.backup().is_some() {
-            s.backup.push(position);
-        }
-        if s.planar().is_some() {
-            s.planar.push(DVec2::ZERO);
-        }
-        s.positions.push(position);
-        Ok(NodeId(s.positions.len() as u32 - 1))
+    pub fn add_node(&mut self, surface: SurfaceId, position: DVec3) -> Result<NodeId, EulerError> {
+        self.edit(|e| e.make_vertex_complex(surface, position))
     }
 
-    /// Adds an edge without faces, from `a` to `b`.
+    /// Adds an edge without faces, from `a` to `b`: [`Editor::make_edge`].
     ///
     /// # Errors
-    /// Unknown ids; one node twice; an edge that is there. O(edges).
-    pub fn add_edge(&mut self, surface: SurfaceId, a: NodeId, b: NodeId) -> Result<EdgeId, AddError> {
-        let s = self.checked(surface, &[a, b])?;
-        if let Some(edge) = s.find_edge(a, b) {
-            return Err(AddError::EdgeExists { surface, edge });
-        }
-        Ok(self.surface_mut(surface).push_edge(a, b))
+    /// Unknown ids; one node twice; an edge that is there. O(size of the body).
+    pub fn add_edge(&mut self, surface: SurfaceId, a: NodeId, b: NodeId) -> Result<EdgeId, EulerError> {
+        Ok(self.edit(|e| e.make_edge(surface, a, b))?.0)
     }
 
-    /// Adds a face with corners `nodes`, anticlockwise seen from outside; edges that are missing are made. The surface's
-    /// boundary loops are found anew, and with them its chains on no joint.
+    /// Adds a face with corners `nodes`, anticlockwise seen from outside: [`Editor::make_edge`] for the sides that are
+    /// missing and [`Editor::make_face`]. The surface's boundary loops are found anew, and with them its chains on no
+    /// joint.
     ///
     /// # Errors
-    /// Unknown ids; one node twice; an edge that a face runs over in the same direction, or that lies on a joint. O(faces).
-    pub fn add_face(&mut self, surface: SurfaceId, nodes: [NodeId; 3]) -> Result<FaceId, AddError> {
-        let s = self.checked(surface, &nodes)?;
-        let sides = [0, 1, 2].map(|i| (nodes[i], nodes[(i + 1) % 3]));
-        for (a, b) in sides {
-            let Some(edge) = s.find_edge(a, b) else { continue };
-            let face = s.edge_faces[edge.index()][usize::from(s.edges[edge.index()][0] != a.0)];
-            if face != NONE {
-                return Err(AddError::SideTaken { surface, edge, face: FaceId(face) });
-            }
-            if let Some(joint) = s.edge_chain(edge).and_then(|c| s.chain(c).joint) {
-                return Err(AddError::EdgeOnJoint { surface, edge, joint });
-            }
-        }
-        let s = self.surface_mut(surface);
-        let face = FaceId(s.faces.len() as u32);
-        let edges = sides.map(|(a, b)| {
-            let edge = s.find_edge(a, b).unwrap_or_else(|| s.push_edge(a, b));
-            s.edge_faces[edge.index()][usize::from(s.edges[edge.index()][0] != a.0)] = face.0;
-            edge.0
-        });
-        s.faces.push(nodes.map(|v| v.0));
-        s.face_edges.push(edges);
-        s.drop_loops();
-        s.find_loops();
-        Ok(face)
+    /// Unknown ids; one node twice; an edge that a face runs over in the same direction, or that lies on a joint. Nothing
+    /// is changed then. O(size of the body).
+    pub fn add_face(&mut self, surface: SurfaceId, nodes: [NodeId; 3]) -> Result<FaceId, EulerError> {
+        self.edit(|e| {
+            e.transaction(|e| {
+                let mut sides = [EdgeId(0); 3];
+                for i in 0..3 {
+                    let (a, b) = (nodes[i], nodes[(i + 1) % 3]);
+                    let there = e.body().surfaces.get(surface.index()).and_then(|s| s.find_edge(a, b));
+                    sides[i] = match there {
+                        Some(edge) => edge,
+                        None => e.make_edge(surface, a, b)?.0,
+                    };
+                }
+                Ok(e.make_face(surface, sides)?.0)
+            })
+        })
+    }
+
+    /// Splits a face into four: [`Editor::split_face`].
+    ///
+    /// # Errors
+    /// Unknown ids; ids run out. Nothing is changed then. O(edges of the chains concerned).
+    pub fn split_face(&mut self, surface: SurfaceId, face: FaceId) -> Result<FaceSplit, SplitFaceError> {
+        self.edit(|e| e.split_face(surface, face))
     }
 
     /// Adds a joint. Boundary loops of its surfaces are cut anew, and with them their chains on no joint.
@@ -152,7 +79,14 @@ impl Body {
     /// # Errors
     /// As [`Body::build`]. Nothing is changed then. O(faces of its surfaces).
     pub fn add_joint(&mut self, spec: &JointSpec) -> Result<JointId, BuildError> {
-        let id = JointId(self.joints.len() as u32);
+        let (next, id) = self.with_joint(spec)?;
+        *self = next;
+        Ok(id)
+    }
+
+    /// The body with a joint more.
+    pub(super) fn with_joint(&self, spec: &JointSpec) -> Result<(Self, JointId), BuildError> {
+        let id = JointId(self.joint_slots.next(self.joints.len()));
         let mut labels: Vec<JointLabel> = self
             .joints
             .iter()
@@ -160,7 +94,10 @@ impl Body {
             .map(|(index, j)| JointLabel { index, name: j.name.clone() })
             .collect();
         let label = JointLabel { index: id.index(), name: spec.name.clone() };
-        labels.push(label.clone());
+        match labels.get_mut(id.index()) {
+            Some(free) => *free = label.clone(),
+            None => labels.push(label.clone()),
+        }
         if spec.chains.len() < 2 {
             return Err(BuildError::TooFew { joint: label });
         }
@@ -189,22 +126,18 @@ impl Body {
         for &s in &touched {
             next.surfaces[s].find_loops();
         }
-        next.joints.push(Joint { name: spec.name.clone(), uses, radial: Vec::new() });
+        let joint = Joint { name: spec.name.clone(), uses, radial: Vec::new() };
+        match next.joint_slots.take() {
+            Some(free) => next.joints[free as usize] = joint,
+            None => next.joints.push(joint),
+        }
         next.meet(&labels)?;
         next.order_joint(id);
-        *self = next;
-        Ok(id)
+        Ok((next, id))
     }
 }
 
 impl Surface {
-    fn push_edge(&mut self, a: NodeId, b: NodeId) -> EdgeId {
-        self.edges.push([a.0, b.0]);
-        self.edge_faces.push([NONE; 2]);
-        self.edge_chain.push(NO_CHAIN);
-        EdgeId(self.edges.len() as u32 - 1)
-    }
-
     /// Forgets loops and the chains on no joint, which come last: chains of joints keep their numbers.
     pub(crate) fn drop_loops(&mut self) {
         let last = self.chains.iter().rposition(|c| c.joint.is_some()).map_or(0, |i| i + 1);

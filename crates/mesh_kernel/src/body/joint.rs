@@ -97,6 +97,18 @@ impl Body {
         self.joint(joint).uses.iter().all(|u| self.surface(u.surface).chain_is_closed(u.chain))
     }
 
+    /// Whether the joint that an edge lies on runs over it from its second node to its first. O(length of the chain).
+    pub(crate) fn runs_against_joint(&self, surface: SurfaceId, edge: EdgeId) -> bool {
+        let s = self.surface(surface);
+        let Some(c) = s.edge_chain(edge) else { return false };
+        let chain = s.chain(c);
+        let along = chain.edges.iter().find(|d| d.edge() == edge).is_some_and(|d| d.is_reversed());
+        let turned = chain.joint.is_some_and(|j| {
+            self.joint(j).uses().iter().any(|u| (u.surface, u.chain) == (surface, c) && u.reversed)
+        });
+        along != turned
+    }
+
     /// The uses of the joint that `edge` lies on, other than `edge` itself, with the edge of each that corresponds.
     /// Empty where the edge is on no joint. O(length of the chain).
     pub fn partners(&self, surface: SurfaceId, edge: EdgeId) -> Vec<(SurfaceId, DirectedEdge)> {

@@ -35,9 +35,9 @@ mod carry;
 mod chain;
 mod check;
 mod compact;
-
 mod counts;
 pub mod edit;
+mod file;
 mod free_boundary;
 mod from_tri_mesh;
 mod homology;
@@ -53,7 +53,6 @@ mod sectors;
 mod shells;
 mod slots;
 mod split_all;
-mod split_face;
 mod surface;
 mod weld;
 mod welded;
@@ -65,12 +64,13 @@ pub use chain::{Chain, Loop};
 pub use check::Defect;
 pub use compact::{Compaction, SurfaceCompaction};
 pub use counts::Counts;
+pub use edit::{FaceSplit, SplitEdge, SplitFaceError};
+pub use file::{BODY_FILE_EXTENSION, BODY_FILE_VERSION, BodyFileError};
 pub use free_boundary::{BoundaryLine, FreeEdge};
 pub use ids::{
     AttributeEdgeId, AttributeNodeId, ChainId, DirectedEdge, EdgeId, FaceId, JointId, LoopId, NONE, NodeId,
     SurfaceId,
 };
-pub use incomplete::AddError;
 pub use joint::{Joint, JointUse, Sheet, Side};
 pub use pairing::{
     Contact, EdgePairings, Fan, FanKind, NodeFans, Pairing, PairingError, Resolution, Through,
@@ -78,7 +78,6 @@ pub use pairing::{
 pub use regions::{FaceSide, FaceUse, Region, Regions};
 pub use sectors::{Crossing, EdgeSector, Sector};
 pub use split_all::{SplitError, SplitMap, SurfaceSplit};
-pub use split_face::{FaceSplit, SplitEdge, SplitFaceError};
 pub use surface::{Star, Surface};
 pub use weld::Weld;
 

@@ -47,7 +47,15 @@ impl Slots {
 
     /// The number that is given next, of an array that is `len` long.
     pub(crate) fn next(&self, len: usize) -> u32 {
-        self.free.last().copied().unwrap_or(len as u32)
+        self.upcoming(len, 0)
+    }
+
+    /// The number that is given after `k` others.
+    pub(crate) fn upcoming(&self, len: usize, k: usize) -> u32 {
+        match self.free.len().checked_sub(k + 1) {
+            Some(i) => self.free[i],
+            None => (len + k - self.free.len()) as u32,
+        }
     }
 
     /// Takes the number freed last; `None` where there is none and the array has to grow.

@@ -3,6 +3,8 @@
 // A test that cannot go on fails; not every test uses every generator.
 #![allow(clippy::unwrap_used, dead_code, unreachable_pub, missing_docs)]
 
+pub mod operations;
+
 use mesh_kernel::body::{
     AttributeEdge, AttributeNode, Body, ChainSpec, EdgeId, FaceId, JointSpec, NodeId, SurfaceId, SurfaceSpec,
 };

@@ -28,18 +28,10 @@ impl Body {
     ///
     /// O(faces · log faces).
     pub fn check(&self) -> Vec<Defect> {
-        let mut defects = Vec::new();
-        ids::check(self, &mut defects);
-        if !defects.is_empty() {
+        let (mut defects, incident) = self.check_structure();
+        if !incident {
             return defects;
         }
-        incidence::check(self, &mut defects);
-        if !defects.is_empty() {
-            return defects;
-        }
-        boundary::check(self, &mut defects);
-        joints::check_topology(self, &mut defects);
-        attributes::check(self, &mut defects);
         let joined = defects.is_empty();
         let finite = geometry::check_finite(self, &mut defects);
         if finite {
@@ -55,5 +47,27 @@ impl Body {
         }
         identity::check(self, &mut defects);
         defects
+    }
+
+    /// The broken rules that have nothing to do with where nodes are: what a body must keep for its queries and operators
+    /// to work at all.
+    pub(crate) fn check_topology(&self) -> Vec<Defect> {
+        self.check_structure().0
+    }
+
+    /// The rules of topology, and whether incidence is sound, without which nothing else can be asked.
+    fn check_structure(&self) -> (Vec<Defect>, bool) {
+        let mut defects = Vec::new();
+        ids::check(self, &mut defects);
+        if defects.is_empty() {
+            incidence::check(self, &mut defects);
+        }
+        if !defects.is_empty() {
+            return (defects, false);
+        }
+        boundary::check(self, &mut defects);
+        joints::check_topology(self, &mut defects);
+        attributes::check(self, &mut defects);
+        (defects, true)
     }
 }

@@ -2,8 +2,13 @@
 
 use glam::DVec3;
 
+use super::delta::Delta;
+use super::loops::Loops;
+use super::operation::Operation;
+use super::swap_edge::Guard;
+use super::whole::Whole;
 use crate::body::attribute::{AttributeEdge, AttributeNode};
-use crate::body::{EdgeId, SurfaceId};
+use crate::body::{EdgeId, Surface, SurfaceId};
 
 /// One operator. Its inverse needs nothing more than this and the body after it.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,10 +19,50 @@ pub(super) enum Record {
     SplitEdge {
         surface: SurfaceId,
         edge: EdgeId,
+        /// The half at the edge's old end.
+        second: EdgeId,
         at: f64,
-        position: DVec3,
-        attributes: Option<Box<Attributes>>,
+        /// How many nodes, edges and faces took numbers that were free.
+        reused: [u8; 3],
+        more: Option<Box<SplitMore>>,
     },
+    /// A record that belongs to the operator of the one before, as a partner on a joint.
+    Following(Box<Record>),
+    /// Changes to surfaces; its inverse is to exchange them.
+    Deltas { operation: Box<Operation>, deltas: Vec<Delta>, stars_kept: bool },
+    /// Whole surfaces and joints exchanged.
+    Whole { operation: Box<Operation>, whole: Box<Whole> },
+    /// A surface put at the end (nothing kept), or taken off it (kept).
+    Surface { operation: Box<Operation>, surface: Option<Box<Surface>> },
+}
+
+impl Record {
+    /// The operation whose first, or only, record this is.
+    fn operation(&self) -> Option<Operation> {
+        match self {
+            // The guard has been passed; replay needs none.
+            Self::SwapEdge { surface, edge, .. } => {
+                Some(Operation::SwapEdge { surface: *surface, edge: *edge, guard: Guard::None })
+            }
+            Self::SplitEdge { surface, edge, at, .. } => {
+                Some(Operation::SplitEdge { surface: *surface, edge: *edge, at: *at })
+            }
+            Self::Following(_) => None,
+            Self::Deltas { operation, .. }
+            | Self::Whole { operation, .. }
+            | Self::Surface { operation, .. } => Some((**operation).clone()),
+        }
+    }
+}
+
+/// What few splits need.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct SplitMore {
+    /// Where the node is, if that is not to be computed from the edge itself: partners on a joint share it.
+    pub(super) position: Option<DVec3>,
+    pub(super) attributes: Option<Attributes>,
+    /// Before the split, where they had to be found anew.
+    pub(super) loops: Option<Loops>,
 }
 
 /// The attributes of a surface before an operator that changed them.
@@ -35,4 +80,17 @@ pub(super) struct Journal {
     pub(super) marks: Vec<usize>,
     /// Transactions undone, last first.
     pub(super) undone: Vec<Vec<Record>>,
+}
+
+impl Journal {
+    pub(super) fn operations(&self) -> Vec<Operation> {
+        let starts = std::iter::once(0).chain(self.marks.iter().copied());
+        let steps = starts.zip(&self.marks).map(|(from, &to)| &self.done[from..to]);
+        steps
+            .filter_map(|records| {
+                let mut group: Vec<Operation> = records.iter().filter_map(Record::operation).collect();
+                if group.len() > 1 { Some(Operation::Group(group)) } else { group.pop() }
+            })
+            .collect()
+    }
 }

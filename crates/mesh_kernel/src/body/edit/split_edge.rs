@@ -10,11 +10,14 @@
 //!
 //! In K3 terms: split_edge (v + 1, e + 1) and, for every face, an edge that makes a face (MEF: e + 1, f + 1).
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::Editor;
-use super::journal::{Attributes, Record};
+use super::journal::{Attributes, Record, SplitMore};
+use super::loops::{Loops, rebuild, split_unsettles};
+use super::stars::{LAST, NEXT};
 use crate::body::carry::Piece;
+use crate::body::slots::Slots;
 use crate::body::surface::NO_CHAIN;
 use crate::body::{DirectedEdge, EdgeId, FaceId, NONE, SplitEdge, Surface, SurfaceId};
 
@@ -63,7 +66,10 @@ impl Editor {
     ) -> Result<EdgeSplit, SplitEdgeError> {
         let missing = SplitEdgeError::NoEdge { surface, edge };
         let s = self.body.surfaces.get(surface.index()).ok_or(missing.clone())?;
-        let &[a, b] = s.edges.get(edge.index()).ok_or(missing)?;
+        if !s.is_edge(edge) {
+            return Err(missing);
+        }
+        let [a, b] = s.edges[edge.index()];
         if !(at > 0.0 && at < 1.0) {
             return Err(SplitEdgeError::Parameter(at));
         }
@@ -72,7 +78,7 @@ impl Editor {
             return Err(SplitEdgeError::TooLarge(surface));
         }
         if s.edge_chain(edge).is_none_or(|c| s.chain(c).joint.is_none()) {
-            let edge = self.split_one(surface, edge, at, position);
+            let edge = self.split_one(surface, edge, at, None);
             return Ok(EdgeSplit { edge, partners: Vec::new() });
         }
         let own = self.joint_reversed(surface, edge);
@@ -87,21 +93,30 @@ impl Editor {
             }
         }
         let done: Result<EdgeSplit, std::convert::Infallible> = self.transaction(|editor| {
-            let edge = editor.split_one(surface, edge, at, position);
-            let partners = partners.iter().map(|&(t, e, at)| editor.split_one(t, e, at, position)).collect();
+            let edge = editor.split_one(surface, edge, at, None);
+            let partners =
+                partners.iter().map(|&(t, e, at)| editor.split_one(t, e, at, Some(position))).collect();
             Ok(EdgeSplit { edge, partners })
         });
         let Ok(split) = done;
         Ok(split)
     }
 
-    fn split_one(&mut self, surface: SurfaceId, edge: EdgeId, at: f64, position: DVec3) -> SplitEdge {
+    fn split_one(&mut self, surface: SurfaceId, edge: EdgeId, at: f64, position: Option<DVec3>) -> SplitEdge {
         let s = self.body.surface(surface);
-        let (node, second) = (s.positions.len() as u32, EdgeId(s.edges.len() as u32));
-        let attributes = (!s.attribute_nodes.is_empty()).then(|| {
-            Box::new(Attributes { nodes: s.attribute_nodes.clone(), edges: s.attribute_edges.clone() })
-        });
-        self.apply(Record::SplitEdge { surface, edge, at, position, attributes });
+        let slots = &s.slots;
+        let node = slots.nodes.next(s.positions.len());
+        let second = EdgeId(slots.edges.next(s.edges.len()));
+        let faces = s.edge_faces[edge.index()].iter().filter(|f| **f != NONE).count();
+        let reused = |slots: &Slots, n: usize| slots.free().len().min(n) as u8;
+        let reused = [reused(&slots.nodes, 1), reused(&slots.edges, 1 + faces), reused(&slots.faces, faces)];
+        let attributes = (!s.attribute_nodes.is_empty())
+            .then(|| Attributes { nodes: s.attribute_nodes.clone(), edges: s.attribute_edges.clone() });
+        let loops = split_unsettles(s, edge, second.0).then(|| Loops::of(s));
+        let plain = position.is_none() && attributes.is_none() && loops.is_none();
+        let more = (!plain).then(|| Box::new(SplitMore { position, attributes, loops }));
+        let record = Record::SplitEdge { surface, edge, second, at, reused, more };
+        self.perform(if position.is_some() { Record::Following(Box::new(record)) } else { record });
         SplitEdge { surface, edge, second, node }
     }
 
@@ -117,133 +132,257 @@ impl Editor {
         along != turned
     }
 
-    pub(super) fn do_split(&mut self, surface: SurfaceId, edge: EdgeId, at: f64, position: DVec3) {
+    pub(super) fn do_split(&mut self, surface: SurfaceId, edge: EdgeId, at: f64, more: Option<&SplitMore>) {
         let s = &mut self.body.surfaces[surface.index()];
-        let mut joined = self.joined[surface.index()].as_mut();
-        let e = edge.0;
+        let stars = self.stars[surface.index()].as_mut();
         let [a, b] = s.edges[edge.index()];
-        let (m, second) = (s.positions.len() as u32, s.edges.len() as u32);
         if !s.attribute_nodes.is_empty() {
             carry(s, edge, at);
         }
-        s.positions.push(position);
+        let position = between(s.positions[a as usize], s.positions[b as usize], at);
+        let m = add_node(s, more.and_then(|m| m.position).unwrap_or(position));
         if !s.backup.is_empty() {
-            s.backup.push(between(s.backup[a as usize], s.backup[b as usize], at));
+            s.backup[m as usize] = between(s.backup[a as usize], s.backup[b as usize], at);
         }
         if !s.planar.is_empty() {
-            s.planar.push(s.planar[a as usize] * (1.0 - at) + s.planar[b as usize] * at);
+            s.planar[m as usize] = s.planar[a as usize] * (1.0 - at) + s.planar[b as usize] * at;
         }
         s.edges[edge.index()] = [a, m];
-        s.edges.push([m, b]);
-        s.edge_faces.push([NONE; 2]);
-        s.edge_chain.push(NO_CHAIN);
-        if let Some(joined) = &mut joined {
-            joined.remove(a, b);
-            joined.insert(a, m);
-            joined.insert(m, b);
+        let faces = s.edge_faces[edge.index()];
+        let second = add_edge(s, [m, b]);
+        // The edges at the new node, and the tips.
+        let (mut ring, mut len) = ([edge.0, second, NONE, NONE], 2);
+        for (slot, face) in faces.into_iter().enumerate().filter(|(_, f)| *f != NONE) {
+            let cut = cut_face(s, edge.0, second, m, slot, face);
+            ring[len] = cut;
+            len += 1;
         }
-        for (slot, face) in s.edge_faces[edge.index()].into_iter().enumerate().filter(|(_, f)| *f != NONE) {
-            // On the left (slot 0) the face runs a → b, on the right b → a; the part at `a` stays.
-            let f = face as usize;
-            let i = s.face_edges[f].iter().position(|&x| x == e).unwrap_or(0);
-            let [j, k] = [(i + 1) % 3, (i + 2) % 3];
-            let (new, cut) = (s.faces.len() as u32, s.edges.len() as u32);
-            let (mut corners, mut sides) = (s.faces[f], s.face_edges[f]);
-            let tip = corners[k];
-            if slot == 0 {
-                // New part m, b, c.
-                corners[i] = m;
-                sides[i] = second;
-                sides[k] = cut;
-                s.faces[f][j] = m;
-                s.face_edges[f][j] = cut;
-                retarget(s, sides[j], face, new);
-                s.edge_faces.push([face, new]);
-            } else {
-                // New part b, m, d.
-                corners[j] = m;
-                sides[i] = second;
-                sides[j] = cut;
-                s.faces[f][i] = m;
-                s.face_edges[f][k] = cut;
-                retarget(s, sides[k], face, new);
-                s.edge_faces.push([new, face]);
-            }
-            s.edges.push([m, tip]);
-            s.edge_chain.push(NO_CHAIN);
-            s.edge_faces[second as usize][slot] = new;
-            s.faces.push(corners);
-            s.face_edges.push(sides);
-            if let Some(joined) = &mut joined {
-                joined.insert(m, tip);
+        if let Some(stars) = stars {
+            stars.exchange(b, edge.0, second);
+            let held = s.edge_chain(edge).is_some_and(|c| s.chain(c).joint.is_some());
+            stars.place(m, &ring[..len], held, len == 2);
+            for &cut in &ring[2..len] {
+                stars.gain(s.edges[cut as usize][1], cut);
             }
         }
         if let Some(c) = s.edge_chain(edge) {
+            let unsettled = more.is_some_and(|m| m.loops.is_some());
             s.edge_chain[second as usize] = s.edge_chain[edge.index()];
             let edges = &mut s.chains[c.index()].edges;
             if let Some(k) = edges.iter().position(|d| d.edge() == edge) {
                 let reversed = edges[k].is_reversed();
                 edges.insert(k + usize::from(!reversed), DirectedEdge::new(EdgeId(second), reversed));
             }
+            if unsettled {
+                rebuild(s);
+            }
         }
     }
 
-    /// The inverse of the last split of this surface: `edge` and the last node become one edge again.
-    pub(super) fn do_join(&mut self, surface: SurfaceId, edge: EdgeId, attributes: Option<&Attributes>) {
+    /// The inverse of the last split of this surface: `edge` and `second` become one edge again.
+    pub(super) fn do_join(
+        &mut self,
+        surface: SurfaceId,
+        edge: EdgeId,
+        second: EdgeId,
+        reused: [u8; 3],
+        more: Option<&SplitMore>,
+    ) {
         let s = &mut self.body.surfaces[surface.index()];
-        let mut joined = self.joined[surface.index()].as_mut();
+        let mut stars = self.stars[surface.index()].as_mut();
         let [a, m] = s.edges[edge.index()];
+        let b = s.edges[second.index()][1];
         let faces = s.edge_faces[edge.index()];
-        let second = s.edges.len() as u32 - 1 - faces.iter().filter(|f| **f != NONE).count() as u32;
-        let b = s.edges[second as usize][1];
-        if let Some(c) = s.edge_chain(edge) {
-            s.chains[c.index()].edges.retain(|d| d.edge().0 != second);
+        let loops = more.and_then(|m| m.loops.as_ref());
+        if let Some(c) = s.edge_chain(edge)
+            && loops.is_none()
+        {
+            let edges = &mut s.chains[c.index()].edges;
+            if let Some(k) = edges.iter().position(|d| d.edge() == second) {
+                edges.remove(k);
+            }
         }
+        let [_, mut old_edges, mut old_faces] = reused.map(usize::from);
+        let count = faces.iter().filter(|f| **f != NONE).count();
+        // What took a free number came first, so it goes last.
+        let (mut edges_left, mut faces_left) = (1 + count, count);
+        let next = |left: &mut usize, old: &mut usize| {
+            let was_free = *left <= *old;
+            *left -= 1;
+            was_free
+        };
         for (slot, face) in faces.into_iter().enumerate().rev().filter(|(_, f)| *f != NONE) {
             let f = face as usize;
-            let i = s.face_edges[f].iter().position(|&x| x == edge.0).unwrap_or(0);
-            let [j, k] = [(i + 1) % 3, (i + 2) % 3];
-            let new = s.faces.len() as u32 - 1;
-            let cut = s.edges.len() - 1;
+            let i = place(s, face, edge.0);
+            // The part at `a` has the cut on its side after the edge on the left, before it on the right.
+            let (corner, side) = if slot == 0 { (NEXT[i], NEXT[i]) } else { (i, LAST[i]) };
+            let cut = s.face_edges[f][side];
+            let new = s.edge_faces[second.index()][slot];
             let sides = s.face_edges[new as usize];
-            let (corner, side) = if slot == 0 { (j, j) } else { (i, k) };
+            // The new part's sides stand in the same places.
             s.faces[f][corner] = b;
             s.face_edges[f][side] = sides[side];
             retarget(s, sides[side], new, face);
-            if let Some(joined) = &mut joined {
-                joined.remove(m, s.edges[cut][1]);
+            if let Some(stars) = &mut stars {
+                let [_, tip] = s.edges[cut as usize];
+                stars.lose(tip, cut, sides[side]);
             }
-            s.edges.pop();
-            s.edge_faces.pop();
-            s.edge_chain.pop();
-            s.faces.pop();
-            s.face_edges.pop();
+            remove_edge(s, cut, next(&mut edges_left, &mut old_edges));
+            remove_face(s, new, next(&mut faces_left, &mut old_faces));
         }
-        s.edges.pop();
-        s.edge_faces.pop();
-        s.edge_chain.pop();
+        remove_edge(s, second.0, next(&mut edges_left, &mut old_edges));
         s.edges[edge.index()] = [a, b];
-        if let Some(joined) = &mut joined {
-            joined.remove(a, m);
-            joined.remove(m, b);
-            joined.insert(a, b);
+        if let Some(stars) = &mut stars {
+            stars.exchange(b, second.0, edge.0);
+            stars.remove(m);
         }
-        s.positions.pop();
-        if !s.backup.is_empty() {
-            s.backup.pop();
+        remove_node(s, m, reused[0] > 0);
+        if let Some(loops) = loops {
+            loops.restore(s);
         }
-        if !s.planar.is_empty() {
-            s.planar.pop();
-        }
-        if let Some(before) = attributes {
+        if let Some(before) = more.and_then(|m| m.attributes.as_ref()) {
             s.attribute_nodes.clone_from(&before.nodes);
             s.attribute_edges.clone_from(&before.edges);
         }
     }
 }
 
+/// A node with the number freed last, or a new one; the layers that the surface has grow along.
+fn add_node(s: &mut Surface, position: DVec3) -> u32 {
+    if let Some(v) = s.slots.nodes.take() {
+        s.positions[v as usize] = position;
+        return v;
+    }
+    s.positions.push(position);
+    if !s.backup.is_empty() {
+        s.backup.push(DVec3::ZERO);
+    }
+    if !s.planar.is_empty() {
+        s.planar.push(DVec2::ZERO);
+    }
+    s.positions.len() as u32 - 1
+}
+
+#[inline]
+fn add_edge(s: &mut Surface, ends: [u32; 2]) -> u32 {
+    if let Some(e) = s.slots.edges.take() {
+        s.edges[e as usize] = ends;
+        return e;
+    }
+    s.edges.push(ends);
+    s.edge_faces.push([NONE; 2]);
+    s.edge_chain.push(NO_CHAIN);
+    s.edges.len() as u32 - 1
+}
+
+#[inline]
+fn add_face(s: &mut Surface, corners: [u32; 3], sides: [u32; 3]) -> u32 {
+    if let Some(f) = s.slots.faces.take() {
+        (s.faces[f as usize], s.face_edges[f as usize]) = (corners, sides);
+        return f;
+    }
+    s.faces.push(corners);
+    s.face_edges.push(sides);
+    s.faces.len() as u32 - 1
+}
+
+fn remove_node(s: &mut Surface, v: u32, was_free: bool) {
+    if was_free {
+        release_node(s, v);
+        return;
+    }
+    s.positions.pop();
+    s.backup.pop();
+    s.planar.pop();
+}
+
+/// Frees a node that nothing names any more.
+pub(super) fn release_node(s: &mut Surface, v: u32) {
+    s.positions[v as usize] = DVec3::ZERO;
+    if let Some(p) = s.backup.get_mut(v as usize) {
+        *p = DVec3::ZERO;
+    }
+    if let Some(p) = s.planar.get_mut(v as usize) {
+        *p = DVec2::ZERO;
+    }
+    s.slots.nodes.release(v);
+}
+
+fn remove_edge(s: &mut Surface, e: u32, was_free: bool) {
+    if was_free {
+        release_edge(s, e);
+        return;
+    }
+    s.edges.pop();
+    s.edge_faces.pop();
+    s.edge_chain.pop();
+}
+
+/// Frees an edge that nothing names any more.
+pub(super) fn release_edge(s: &mut Surface, e: u32) {
+    s.edges[e as usize] = [NONE; 2];
+    s.edge_faces[e as usize] = [NONE; 2];
+    s.edge_chain[e as usize] = NO_CHAIN;
+    s.slots.edges.release(e);
+}
+
+fn remove_face(s: &mut Surface, f: u32, was_free: bool) {
+    if was_free {
+        release_face(s, f);
+        return;
+    }
+    s.faces.pop();
+    s.face_edges.pop();
+}
+
+/// Frees a face that nothing names any more.
+pub(super) fn release_face(s: &mut Surface, f: u32) {
+    s.faces[f as usize] = [NONE; 3];
+    s.face_edges[f as usize] = [NONE; 3];
+    s.slots.faces.release(f);
+}
+
+/// Cuts a face, left (slot 0) or right of the edge, from the edge's new node `m` to its tip; gives the new edge.
+#[inline]
+fn cut_face(s: &mut Surface, edge: u32, second: u32, m: u32, slot: usize, face: u32) -> u32 {
+    // On the left the face runs a → b, on the right b → a; the part at `a` stays.
+    let f = face as usize;
+    let i = place(s, face, edge);
+    let (mut corners, mut sides) = (s.faces[f], s.face_edges[f]);
+    let tip = corners[LAST[i]];
+    let (gone, on) = if slot == 0 { (NEXT[i], NEXT[i]) } else { (i, LAST[i]) };
+    let (kept, cut_side) = if slot == 0 { (i, LAST[i]) } else { (NEXT[i], NEXT[i]) };
+    let outer = sides[on];
+    // New part m, b, c on the left; b, m, d on the right.
+    corners[kept] = m;
+    sides[i] = second;
+    let new = s.slots.faces.next(s.faces.len());
+    let cut = add_edge(s, [m, tip]);
+    s.edge_faces[cut as usize] = if slot == 0 { [face, new] } else { [new, face] };
+    sides[cut_side] = cut;
+    s.faces[f][gone] = m;
+    s.face_edges[f][on] = cut;
+    retarget(s, outer, face, new);
+    s.edge_faces[second as usize][slot] = new;
+    add_face(s, corners, sides);
+    cut
+}
+
+/// The side of a face that an edge is.
+#[inline]
+fn place(s: &Surface, face: u32, edge: u32) -> usize {
+    let [x, y, _] = s.face_edges[face as usize];
+    if x == edge { 0 } else { 1 + usize::from(y != edge) }
+}
+
 fn between(a: DVec3, b: DVec3, at: f64) -> DVec3 {
     a * (1.0 - at) + b * at
+}
+
+/// The number that is given when `k` more have been given before.
+fn number(slots: &Slots, len: usize, k: usize) -> u32 {
+    let free = slots.free();
+    if k < free.len() { free[free.len() - 1 - k] } else { (len + k - free.len()) as u32 }
 }
 
 /// Edge `e` has face `to` where it had `from`.
@@ -254,9 +393,8 @@ fn retarget(s: &mut Surface, e: u32, from: u32, to: u32) {
 
 /// Attributes onto the halves of the edge and the parts of its faces, before the surface is changed.
 fn carry(s: &mut Surface, edge: EdgeId, at: f64) {
-    let second = EdgeId(s.edges.len() as u32);
+    let second = EdgeId(number(&s.slots.edges, s.edges.len(), 0));
     let mut parts = Vec::new();
-    let (mut new, mut cut) = (s.faces.len() as u32, second.0 + 1);
     for (slot, face) in s.edge_faces[edge.index()].into_iter().enumerate().filter(|(_, f)| *f != NONE) {
         let i = s.face_edges[face as usize].iter().position(|&x| x == edge.0).unwrap_or(0);
         let [j, k] = [(i + 1) % 3, (i + 2) % 3];
@@ -273,9 +411,9 @@ fn carry(s: &mut Surface, edge: EdgeId, at: f64) {
         let (mut old, mut other) = ([0, 1, 2].map(corner), [0, 1, 2].map(corner));
         old[last] = m;
         other[first] = m;
+        let new = number(&s.slots.faces, s.faces.len(), parts.len());
+        let cut = number(&s.slots.edges, s.edges.len(), 1 + parts.len());
         parts.push((FaceId(face), old, new, other, cut, [m, corner(k)]));
-        new += 1;
-        cut += 1;
     }
     s.carry_attributes(
         |e| (e == edge.0).then_some(([edge, second], at)),

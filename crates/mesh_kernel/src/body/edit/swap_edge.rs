@@ -13,6 +13,7 @@
 
 use super::Editor;
 use super::journal::Record;
+use super::stars::{LAST, NEXT, Stars};
 use crate::body::{EdgeId, JointId, NONE, NodeId, Surface, SurfaceId};
 
 /// Why an edge was not swapped.
@@ -77,7 +78,8 @@ pub enum SwapError {
 }
 
 /// Whether an operator looks at the geometry.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Guard {
     /// Topology alone decides.
     #[default]
@@ -94,13 +96,17 @@ impl Editor {
     /// See [`SwapError`]; nothing is changed then. O(1).
     pub fn swap_edge(&mut self, surface: SurfaceId, edge: EdgeId, guard: Guard) -> Result<(), SwapError> {
         self.can_swap(surface, edge, guard)?;
-        self.apply(Record::SwapEdge { surface, edge, clockwise: false });
+        self.perform(Record::SwapEdge { surface, edge, clockwise: false });
         Ok(())
     }
 
     fn can_swap(&mut self, surface: SurfaceId, edge: EdgeId, guard: Guard) -> Result<(), SwapError> {
-        let s = self.body.surfaces.get(surface.index()).ok_or(SwapError::NoEdge { surface, edge })?;
-        let &[left, right] = s.edge_faces().get(edge.index()).ok_or(SwapError::NoEdge { surface, edge })?;
+        let missing = SwapError::NoEdge { surface, edge };
+        let Some(s) = self.body.surfaces.get(surface.index()) else { return Err(missing) };
+        if !s.is_edge(edge) {
+            return Err(missing);
+        }
+        let [left, right] = s.edge_faces[edge.index()];
         if left == NONE || right == NONE {
             return Err(SwapError::NotInside { surface, edge });
         }
@@ -108,15 +114,16 @@ impl Editor {
             let sheets = self.body.joint(joint).uses().iter().map(|u| u.surface).collect();
             return Err(SwapError::OnJoint { surface, edge, joint, sheets });
         }
-        if s.carries_attributes(&[edge.0], &[left, right]) {
+        if !s.attribute_nodes.is_empty() && s.carries_attributes(&[edge.0], &[left, right]) {
             return Err(SwapError::CarriesAttributes { surface, edge });
         }
-        let (c, d) = (s.apex(left, edge.0), s.apex(right, edge.0));
-        let joined = c == d || self.joined(surface, c, d);
-        if joined {
+        let diamond = Diamond::at(s, edge.0);
+        let [c, d] = diamond.tips(s);
+        let stars = self.stars[surface.index()].get_or_insert_with(|| Stars::new(s));
+        if c == d || diamond.joined(s, stars, c, d) {
             return Err(SwapError::EdgeExists { surface, nodes: [NodeId(c), NodeId(d)] });
         }
-        if guard == Guard::NoTurn && turns(self.body.surface(surface), edge, c, d) {
+        if guard == Guard::NoTurn && turns(s, edge, c, d) {
             return Err(SwapError::Turns { surface, edge });
         }
         Ok(())
@@ -126,37 +133,75 @@ impl Editor {
     pub(super) fn do_swap(&mut self, surface: SurfaceId, edge: EdgeId, clockwise: bool) {
         let s = &mut self.body.surfaces[surface.index()];
         let e = edge.0;
-        let [left, right] = s.edge_faces[edge.index()];
-        let place = |s: &Surface, f: u32| s.face_edges[f as usize].iter().position(|&x| x == e).unwrap_or(0);
-        let (i, j) = (place(s, left), place(s, right));
-        let at = |i: usize| [i, (i + 1) % 3, (i + 2) % 3];
-        let (l, r) = (at(i), at(j));
+        let Diamond { faces: [left, right], at: [i, j] } = Diamond::at(s, e);
         let (ln, rn) = (s.faces[left as usize], s.faces[right as usize]);
         let (le, re) = (s.face_edges[left as usize], s.face_edges[right as usize]);
         // Corners of the left face from the edge's start: a, b, c; of the right: b, a, d.
-        let [a, b, c] = l.map(|k| ln[k]);
-        let d = rn[r[2]];
+        let [a, b, c, d] = [ln[i], ln[NEXT[i]], ln[LAST[i]], rn[LAST[j]]];
+        let [bc, ca] = [le[NEXT[i]], le[LAST[i]]];
+        let [ad, db] = [re[NEXT[j]], re[LAST[j]]];
         let (new_left, left_sides, new_right, right_sides) = if clockwise {
-            ([c, d, b], [e, re[r[2]], le[l[1]]], [d, c, a], [e, le[l[2]], re[r[1]]])
+            ([c, d, b], [e, db, bc], [d, c, a], [e, ca, ad])
         } else {
-            ([d, c, a], [e, le[l[2]], re[r[1]]], [c, d, b], [e, re[r[2]], le[l[1]]])
+            ([d, c, a], [e, ca, ad], [c, d, b], [e, db, bc])
         };
-        for k in 0..3 {
-            s.faces[left as usize][l[k]] = new_left[k];
-            s.face_edges[left as usize][l[k]] = left_sides[k];
-            s.faces[right as usize][r[k]] = new_right[k];
-            s.face_edges[right as usize][r[k]] = right_sides[k];
+        // Corners keep their places in the faces' lists.
+        let (mut nodes, mut sides) = ([0; 3], [0; 3]);
+        for (k, at) in [i, NEXT[i], LAST[i]].into_iter().enumerate() {
+            (nodes[at], sides[at]) = (new_left[k], left_sides[k]);
         }
+        (s.faces[left as usize], s.face_edges[left as usize]) = (nodes, sides);
+        for (k, at) in [j, NEXT[j], LAST[j]].into_iter().enumerate() {
+            (nodes[at], sides[at]) = (new_right[k], right_sides[k]);
+        }
+        (s.faces[right as usize], s.face_edges[right as usize]) = (nodes, sides);
         // Two of the four other sides change their face.
-        let [to_left, to_right] = if clockwise { [re[r[2]], le[l[2]]] } else { [re[r[1]], le[l[1]]] };
+        let [to_left, to_right] = if clockwise { [db, ca] } else { [ad, bc] };
         for (x, from, to) in [(to_left, right, left), (to_right, left, right)] {
             let faces = &mut s.edge_faces[x as usize];
             faces[usize::from(faces[0] != from)] = to;
         }
         s.edges[edge.index()] = [new_left[0], new_left[1]];
-        if let Some(joined) = &mut self.joined[surface.index()] {
-            joined.remove(a, b);
-            joined.insert(c, d);
+        if let Some(stars) = &mut self.stars[surface.index()] {
+            stars.lose(a, e, ca);
+            stars.lose(b, e, bc);
+            stars.gain(c, e);
+            stars.gain(d, e);
+        }
+    }
+}
+
+/// An edge with both its faces, and its place among the sides of each.
+struct Diamond {
+    faces: [u32; 2],
+    at: [usize; 2],
+}
+
+impl Diamond {
+    #[inline]
+    fn at(s: &Surface, edge: u32) -> Self {
+        let faces = s.edge_faces[edge as usize];
+        let at = faces.map(|f| {
+            let [x, y, _] = s.face_edges[f as usize];
+            if x == edge { 0 } else { 1 + usize::from(y != edge) }
+        });
+        Self { faces, at }
+    }
+
+    /// The corners that are not on the edge.
+    #[inline]
+    fn tips(&self, s: &Surface) -> [u32; 2] {
+        [0, 1].map(|k| s.faces[self.faces[k] as usize][LAST[self.at[k]]])
+    }
+
+    /// Whether an edge joins the two tips.
+    #[inline]
+    fn joined(&self, s: &Surface, stars: &mut Stars, c: u32, d: u32) -> bool {
+        // Round the tip with fewer edges.
+        if stars.degree(c) <= stars.degree(d) {
+            stars.joined(s, self.faces[0], LAST[self.at[0]], c, d)
+        } else {
+            stars.joined(s, self.faces[1], LAST[self.at[1]], d, c)
         }
     }
 }
