@@ -132,18 +132,23 @@ fn run() {
     });
     let body = built.unwrap();
     let Orders { random, flips, splits } = Orders::new(&body);
-    for (name, order) in [("random", &random), ("mesh order", &flips)] {
-        let mut editor = Editor::new(body.clone());
-        timed("ours", &format!("flip, {name}"), || {
-            order.iter().filter(|&&e| editor.swap_edge(SURFACE, EdgeId(e), Guard::None).is_ok()).count()
-        });
-    }
-    for (name, order) in [("random", &random), ("mesh order", &splits)] {
-        let mut editor = Editor::new(body.clone());
-        timed("ours", &format!("split, {name}"), || {
-            let split = |e: &&u32| editor.split_edge(SURFACE, EdgeId(**e), 0.5).is_ok();
-            order[..SPLITS].iter().filter(split).count()
-        });
+    for (library, open) in
+        [("ours", Editor::new as fn(Body) -> Editor), ("ours without journal", Editor::without_journal)]
+    {
+        for (name, order) in [("random", &random), ("mesh order", &flips)] {
+            let mut editor = open(body.clone());
+            timed(library, &format!("flip, {name}"), || {
+                let flip = |e: &&u32| editor.swap_edge(SURFACE, EdgeId(**e), Guard::None).is_ok();
+                order.iter().filter(flip).count()
+            });
+        }
+        for (name, order) in [("random", &random), ("mesh order", &splits)] {
+            let mut editor = open(body.clone());
+            timed(library, &format!("split, {name}"), || {
+                let split = |e: &&u32| editor.split_edge(SURFACE, EdgeId(**e), 0.5).is_ok();
+                order[..SPLITS].iter().filter(split).count()
+            });
+        }
     }
 }
 
