@@ -45,7 +45,7 @@ inline Panel read_panel(const std::string& folder) {
 }
 
 constexpr std::size_t SPLITS = 100000;
-constexpr std::size_t COLLAPSES = 40000;
+constexpr std::size_t COLLAPSES = 50000;
 
 inline double cpu_seconds() {
   timespec t;
