@@ -6,7 +6,7 @@
 mod body_support;
 
 use body_support::{Random, add_attributes, add_wires, lattice, random_body};
-use mesh_kernel::body::{Body, BodyFileError, SurfaceId};
+use mesh_kernel::body::{Body, BodyFileError, ChainSpec, JointSpec, SurfaceId, SurfaceSpec};
 use mesh_kernel::files::write_atomically;
 use mesh_kernel::glam::{DVec2, DVec3};
 
@@ -103,4 +103,21 @@ fn geometry_does_not_keep_a_body_from_being_saved() {
     }
     assert!(!body.check().is_empty());
     assert_eq!(Body::from_file_bytes(&body.to_file_bytes().unwrap()).unwrap(), body);
+}
+
+#[test]
+fn the_guide_shows_a_file_as_it_is_written() {
+    let guide = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/body-file.md");
+    let text = std::fs::read_to_string(guide).unwrap();
+    let example = text.split("```json\n").nth(1).unwrap().split("```").next().unwrap();
+    let flap = |name: &str, x: f64| SurfaceSpec {
+        name: name.into(),
+        positions: vec![DVec3::ZERO, DVec3::new(0.0, 0.0, 40.0), DVec3::new(x, 0.0, 0.0)],
+        faces: vec![[0, 1, 2]],
+    };
+    let chains = (0..2).map(|surface| ChainSpec { surface, nodes: vec![0, 1], closed: false }).collect();
+    let joint = JointSpec { name: Some("rib".into()), chains };
+    let body = Body::build(&[flap("front", 30.0), flap("back", -30.0)], &[joint]).unwrap();
+    assert_eq!(String::from_utf8(body.to_file_bytes().unwrap()).unwrap(), example);
+    assert_eq!(Body::from_file_bytes(example.as_bytes()).unwrap(), body);
 }

@@ -43,7 +43,10 @@ fn declared(operation: &Operation, outcome: &Outcome, before: &Body) -> Option<C
     }
     let zero = Counts { v: 0, e: 0, f: 0, r: 0, c: 0, ch: 0, cc: 0 };
     match (operation, outcome) {
-        (Operation::SplitEdge { surface, edge, .. }, _) => {
+        (
+            Operation::SplitEdge { surface, edge, .. } | Operation::CollapseEdge { surface, edge, .. },
+            outcome,
+        ) => {
             let faces_at = |s, e: mesh_kernel::body::EdgeId| {
                 let body: &Body = before;
                 let faces = body.surface(s).edge_faces()[e.index()];
@@ -52,7 +55,8 @@ fn declared(operation: &Operation, outcome: &Outcome, before: &Body) -> Option<C
             let partners = before.partners(*surface, *edge);
             let n =
                 faces_at(*surface, *edge) + partners.iter().map(|(s, d)| faces_at(*s, d.edge())).sum::<i64>();
-            Some(Counts { v: 1, e: 1 + n, f: n, ..zero })
+            let sign = if matches!(outcome, Outcome::EdgeSplit(_)) { 1 } else { -1 };
+            Some(Counts { v: sign, e: sign * (1 + n), f: sign * n, ..zero })
         }
         (
             Operation::SwapEdge { .. }
@@ -93,6 +97,7 @@ fn may_bend(operation: &Operation) -> bool {
         Operation::MoveNodes { .. }
         | Operation::RestoreBackup { .. }
         | Operation::SwapEdge { .. }
+        | Operation::CollapseEdge { .. }
         | Operation::MakeVertexEdge { .. }
         | Operation::MakeEdge { .. }
         | Operation::MakeEdgeChole { .. }

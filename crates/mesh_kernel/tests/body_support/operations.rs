@@ -246,7 +246,10 @@ impl Source {
                 9 => self.joints(body),
                 10 => self.layers(body, surface, s),
                 11 | 12 if self.attributes => self.attributes(surface, s),
-                13..=21 => self.high_level(surface, s, big),
+                13..=21 => {
+                    let carrying = body.surfaces().any(|(_, s)| !s.attribute_nodes().is_empty());
+                    self.high_level(surface, s, big, carrying)
+                }
                 22 if self.random.below(3) == 0 => Operation::Compact,
                 23 if self.random.below(8) == 0 && body.face_count() < MANY / 4 => {
                     Operation::SplitAll { midpoints: None }
@@ -409,7 +412,7 @@ impl Source {
         }
     }
 
-    fn high_level(&mut self, surface: SurfaceId, s: &Surface, big: bool) -> Operation {
+    fn high_level(&mut self, surface: SurfaceId, s: &Surface, big: bool, carrying: bool) -> Operation {
         let guard = if self.random.below(8) == 0 { Guard::None } else { Guard::NoTurn };
         match self.random.below(10) {
             0..=2 if !big => {
@@ -417,6 +420,14 @@ impl Source {
                 Operation::SplitEdge { surface, edge: self.edge(s), at }
             }
             3 if !big => Operation::SplitFace { surface, face: self.face(s) },
+            4..=6 if !carrying => {
+                let edge = self.edge(s);
+                let ends = s.edges().get(edge.index()).copied().unwrap_or([0, 1]);
+                let at = [None, Some(0.5), Some(self.random.unit())][self.random.below(3)];
+                let end = self.random.below(40);
+                let keep = NodeId(if end == 0 { 0 } else { ends[end % 2] });
+                Operation::CollapseEdge { surface, edge, keep, at, guard }
+            }
             _ => Operation::SwapEdge { surface, edge: self.edge(s), guard },
         }
     }

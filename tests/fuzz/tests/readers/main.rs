@@ -1,5 +1,6 @@
 //! Every reader of the libraries on damaged files. See the crate's documentation.
 
+mod bodies;
 mod designs;
 mod finds;
 mod meshes;

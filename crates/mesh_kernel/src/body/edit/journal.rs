@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::collapse_edge::Collapse;
 use super::delta::Delta;
 use super::loops::Loops;
 use super::operation::Operation;
@@ -26,6 +27,8 @@ pub(super) enum Record {
         reused: [u8; 3],
         more: Option<Box<SplitMore>>,
     },
+    /// One edge collapsed (its partners on a joint have records of their own). Inverse: drawn out again.
+    CollapseEdge(Box<Collapse>),
     /// A record that belongs to the operator of the one before, as a partner on a joint.
     Following(Box<Record>),
     /// Changes to surfaces; its inverse is to exchange them.
@@ -47,6 +50,7 @@ impl Record {
             Self::SplitEdge { surface, edge, at, .. } => {
                 Some(Operation::SplitEdge { surface: *surface, edge: *edge, at: *at })
             }
+            Self::CollapseEdge(collapse) => Some(collapse.operation()),
             Self::Following(_) => None,
             Self::Deltas { operation, .. }
             | Self::Whole { operation, .. }

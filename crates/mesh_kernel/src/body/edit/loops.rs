@@ -49,6 +49,11 @@ fn whole(s: &Surface, l: LoopId) -> Option<&Chain> {
     }
 }
 
+/// The lowest edge of a loop that is one chain on no joint. O(1).
+pub(super) fn lowest_of_whole(s: &Surface, l: LoopId) -> Option<EdgeId> {
+    whole(s, l).map(|chain| chain.edges[0].edge())
+}
+
 /// The lowest edge of a loop. O(1) where the loop is one chain on no joint, else O(length).
 pub(super) fn lowest(s: &Surface, l: LoopId) -> EdgeId {
     if let Some(chain) = whole(s, l) {

@@ -4,13 +4,16 @@
 //! (typed refusals, nothing changed), then acts and is logged. [`Editor::undo`] gives the body back bit for bit, ids
 //! included; [`Editor::transaction`] rolls back whole on an error.
 
+mod collapse_edge;
 mod delta;
 pub mod euler;
 mod face_mesh;
 mod joints;
 mod journal;
 mod layers;
+mod link_condition;
 mod loops;
+mod minimise;
 mod operation;
 mod split_edge;
 mod split_face;
@@ -19,9 +22,12 @@ mod swap_edge;
 mod triangulate_face;
 mod whole;
 
+pub use collapse_edge::{CollapseError, CollapseOptions, CollapsedEdge, EdgeCollapse};
 pub use euler::{EdgeRole, EulerError, EulerOperator, FaceRole};
 pub use joints::JointError;
 pub use layers::LayerError;
+pub use link_condition::Obstacle;
+pub use minimise::{minimise, minimise_with};
 pub use operation::{Operation, Outcome, Refusal};
 pub use split_edge::{EdgeSplit, SplitEdgeError};
 pub use split_face::{FaceSplit, SplitEdge, SplitFaceError};
@@ -152,12 +158,22 @@ impl Editor {
         }
     }
 
+    /// Runs a part of an operator whose first part names the operation: partners on a joint.
+    fn follow<T>(&mut self, part: impl FnOnce(&mut Self) -> T) -> T {
+        let from = self.journal.done.len();
+        let made = part(self);
+        let parts = self.journal.done.split_off(from);
+        self.journal.done.extend(parts.into_iter().map(|r| Record::Following(Box::new(r))));
+        made
+    }
+
     fn act(&mut self, record: &mut Record) {
         match record {
             Record::SwapEdge { surface, edge, clockwise } => self.do_swap(*surface, *edge, *clockwise),
             Record::SplitEdge { surface, edge, at, more, .. } => {
                 self.do_split(*surface, *edge, *at, more.as_deref());
             }
+            Record::CollapseEdge(collapse) => self.do_collapse(collapse),
             Record::Following(record) => self.act(record),
             _ => self.exchange(record),
         }
@@ -175,6 +191,7 @@ impl Editor {
             Record::SplitEdge { surface, edge, second, reused, more, .. } => {
                 self.do_join(*surface, *edge, *second, *reused, more.as_deref());
             }
+            Record::CollapseEdge(collapse) => self.undo_collapse(collapse),
             Record::Following(record) => self.take_one_back(record),
             _ => self.exchange(record),
         }
@@ -206,7 +223,10 @@ impl Editor {
                     self.stars.pop();
                 }
             },
-            Record::SwapEdge { .. } | Record::SplitEdge { .. } | Record::Following(_) => {}
+            Record::SwapEdge { .. }
+            | Record::SplitEdge { .. }
+            | Record::CollapseEdge(_)
+            | Record::Following(_) => {}
         }
     }
 

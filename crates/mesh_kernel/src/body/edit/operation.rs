@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
 use super::Editor;
+use super::collapse_edge::{CollapseError, CollapseOptions, EdgeCollapse};
 use super::euler::{EdgeRole, EulerError, EulerOperator, FaceRole};
 use super::joints::JointError;
 use super::layers::LayerError;
@@ -104,6 +105,16 @@ pub enum Operation {
         #[serde(default)]
         guard: Guard,
     },
+    /// [`Editor::collapse_edge`].
+    CollapseEdge {
+        surface: SurfaceId,
+        edge: EdgeId,
+        keep: NodeId,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        at: Option<f64>,
+        #[serde(default)]
+        guard: Guard,
+    },
     /// [`Editor::split_face`].
     SplitFace { surface: SurfaceId, face: FaceId },
     /// [`Editor::triangulate_face`].
@@ -147,6 +158,7 @@ pub enum Outcome {
     /// What would make the joint again.
     JointKilled(JointSpec),
     EdgeSplit(EdgeSplit),
+    EdgeCollapsed(EdgeCollapse),
     FaceSplit(FaceSplit),
     FaceTriangulated(FaceTriangulation),
     AllSplit(SplitMap),
@@ -168,6 +180,8 @@ pub enum Refusal {
     SplitEdge(#[from] SplitEdgeError),
     #[error(transparent)]
     SwapEdge(#[from] SwapError),
+    #[error(transparent)]
+    CollapseEdge(#[from] CollapseError),
     #[error(transparent)]
     SplitFace(#[from] SplitFaceError),
     #[error(transparent)]
@@ -310,6 +324,10 @@ impl Editor {
             }
             Op::SplitEdge { surface, edge, at } => Outcome::EdgeSplit(self.split_edge(surface, edge, at)?),
             Op::SwapEdge { surface, edge, guard } => self.swap_edge(surface, edge, guard)?.into(),
+            Op::CollapseEdge { surface, edge, keep, at, guard } => {
+                let options = CollapseOptions { at, guard };
+                Outcome::EdgeCollapsed(self.collapse_edge(surface, edge, keep, &options)?)
+            }
             Op::SplitFace { surface, face } => Outcome::FaceSplit(self.split_face(surface, face)?),
             Op::TriangulateFace { surface, face } => {
                 Outcome::FaceTriangulated(self.triangulate_face(surface, face)?)

@@ -94,8 +94,10 @@ impl Editor {
         }
         let done: Result<EdgeSplit, std::convert::Infallible> = self.transaction(|editor| {
             let edge = editor.split_one(surface, edge, at, None);
-            let partners =
-                partners.iter().map(|&(t, e, at)| editor.split_one(t, e, at, Some(position))).collect();
+            let partners = partners
+                .iter()
+                .map(|&(t, e, at)| editor.follow(|x| x.split_one(t, e, at, Some(position))))
+                .collect();
             Ok(EdgeSplit { edge, partners })
         });
         let Ok(split) = done;
@@ -115,13 +117,12 @@ impl Editor {
         let loops = split_unsettles(s, edge, second.0).then(|| Loops::of(s));
         let plain = position.is_none() && attributes.is_none() && loops.is_none();
         let more = (!plain).then(|| Box::new(SplitMore { position, attributes, loops }));
-        let record = Record::SplitEdge { surface, edge, second, at, reused, more };
-        self.perform(if position.is_some() { Record::Following(Box::new(record)) } else { record });
+        self.perform(Record::SplitEdge { surface, edge, second, at, reused, more });
         SplitEdge { surface, edge, second, node }
     }
 
     /// Whether the joint runs over the edge from its second node to its first.
-    fn joint_reversed(&self, surface: SurfaceId, edge: EdgeId) -> bool {
+    pub(super) fn joint_reversed(&self, surface: SurfaceId, edge: EdgeId) -> bool {
         let s = self.body.surface(surface);
         let Some(c) = s.edge_chain(edge) else { return false };
         let chain = s.chain(c);
@@ -158,11 +159,12 @@ impl Editor {
             len += 1;
         }
         if let Some(stars) = stars {
-            stars.exchange(b, edge.0, second);
+            stars.exchange(a, (edge.0, b), (edge.0, m));
+            stars.exchange(b, (edge.0, a), (second, m));
             let held = s.edge_chain(edge).is_some_and(|c| s.chain(c).joint.is_some());
             stars.place(m, &ring[..len], held, len == 2);
             for &cut in &ring[2..len] {
-                stars.gain(s.edges[cut as usize][1], cut);
+                stars.gain(s.edges[cut as usize][1], cut, m);
             }
         }
         if let Some(c) = s.edge_chain(edge) {
@@ -225,7 +227,7 @@ impl Editor {
             retarget(s, sides[side], new, face);
             if let Some(stars) = &mut stars {
                 let [_, tip] = s.edges[cut as usize];
-                stars.lose(tip, cut, sides[side]);
+                stars.lose(tip, cut, m, sides[side]);
             }
             remove_edge(s, cut, next(&mut edges_left, &mut old_edges));
             remove_face(s, new, next(&mut faces_left, &mut old_faces));
@@ -233,7 +235,8 @@ impl Editor {
         remove_edge(s, second.0, next(&mut edges_left, &mut old_edges));
         s.edges[edge.index()] = [a, b];
         if let Some(stars) = &mut stars {
-            stars.exchange(b, second.0, edge.0);
+            stars.exchange(a, (edge.0, m), (edge.0, b));
+            stars.exchange(b, (second.0, m), (edge.0, a));
             stars.remove(m);
         }
         remove_node(s, m, reused[0] > 0);
@@ -375,7 +378,7 @@ fn place(s: &Surface, face: u32, edge: u32) -> usize {
     if x == edge { 0 } else { 1 + usize::from(y != edge) }
 }
 
-fn between(a: DVec3, b: DVec3, at: f64) -> DVec3 {
+pub(super) fn between(a: DVec3, b: DVec3, at: f64) -> DVec3 {
     a * (1.0 - at) + b * at
 }
 

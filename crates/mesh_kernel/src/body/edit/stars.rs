@@ -3,23 +3,55 @@
 //! Most nodes are *ordinary*: their faces form one fan, and whoever holds one edge of it walks to all others by faces, without
 //! any table. At the few others, *singular* ones, several fans or wires end; their edges are listed, from the first time that
 //! one is met. Which nodes are singular need not be known beforehand: a walk that meets fewer edges than end at the node
-//! has found one.
+//! has found one. Nodes with very many edges, *hubs*, remember their neighbours instead of being walked round.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
+use std::hash::{BuildHasherDefault, Hasher};
 
 use crate::body::{EdgeId, NONE, Surface};
 
 /// What is kept of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct At {
-    /// One of its edges, [`NONE`] where there is none.
+    /// One of its edges, [`NONE`] where there is none; of a hub, its index.
     anchor: u32,
-    /// How many edges end there; the top bit is set where a joint holds the node.
+    /// How many edges end there, with [`HELD`] and [`HUB`].
     degree: u32,
 }
 
 const ALONE: At = At { anchor: NONE, degree: 0 };
+/// Bit of a node that a joint holds.
 const HELD: u32 = 1 << 31;
+/// Bit of a hub.
+const HUB: u32 = 1 << 30;
+/// A node with more edges becomes a hub when all round it is to be searched.
+const HUB_DEGREE: u32 = 20;
+
+/// A node with many edges.
+#[derive(Clone, Debug, Default)]
+struct Hub {
+    anchor: u32,
+    /// It is asked, never iterated, so its order cannot reach a result.
+    neighbours: HashSet<u32, BuildHasherDefault<Spread>>,
+}
+
+/// Spreads neighbouring numbers over the table.
+#[derive(Clone, Copy, Debug, Default)]
+struct Spread(u64);
+
+impl Hasher for Spread {
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|&b| self.write_u32(self.0 as u32 ^ u32::from(b)));
+    }
+
+    fn write_u32(&mut self, x: u32) {
+        self.0 = u64::from(x).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(26);
+    }
+
+    fn finish(&self) -> u64 {
+        self.0
+    }
+}
 
 /// The edges at every node of one surface.
 #[derive(Clone, Debug, Default)]
@@ -27,6 +59,9 @@ pub(super) struct Stars {
     nodes: Vec<At>,
     /// All edges of every singular node; `None` until one is met.
     singular: Option<BTreeMap<u32, Vec<u32>>>,
+    hubs: Vec<Hub>,
+    /// Kept, so that no list is allocated for an operator.
+    scratch: [Vec<u32>; 2],
 }
 
 /// The other face of an edge.
@@ -89,13 +124,24 @@ impl Stars {
                 nodes[v as usize].degree |= HELD;
             }
         }
-        Self { nodes, singular: None }
+        Self { nodes, singular: None, hubs: Vec::new(), scratch: Default::default() }
     }
 
     /// How many edges end at a node.
     #[inline]
     pub(super) fn degree(&self, node: u32) -> u32 {
-        self.nodes[node as usize].degree & !HELD
+        self.nodes[node as usize].degree & !(HELD | HUB)
+    }
+
+    /// One of the edges at a node.
+    fn anchor(&self, node: u32) -> u32 {
+        let At { anchor, degree } = self.nodes[node as usize];
+        if degree & HUB == 0 { anchor } else { self.hubs[anchor as usize].anchor }
+    }
+
+    fn anchor_mut(&mut self, node: u32) -> &mut u32 {
+        let At { anchor, degree } = &mut self.nodes[node as usize];
+        if *degree & HUB == 0 { anchor } else { &mut self.hubs[*anchor as usize].anchor }
     }
 
     /// Whether a joint holds the node.
@@ -107,7 +153,7 @@ impl Stars {
     /// All edges at a node. O(edges there); once, where the first singular node is met, O(edges of the surface).
     pub(super) fn edges_at(&mut self, s: &Surface, node: u32, out: &mut Vec<u32>) {
         out.clear();
-        let At { anchor, .. } = self.nodes[node as usize];
+        let anchor = self.anchor(node);
         if anchor == NONE {
             return;
         }
@@ -154,6 +200,13 @@ impl Stars {
     pub(super) fn joined(&mut self, s: &Surface, face: u32, i: usize, c: u32, d: u32) -> bool {
         // Both ways at once: the two walks do not wait for each other's memory.
         let (mut ahead, mut behind) = (Walk::ahead(s, face, i), Walk::behind(s, face, i));
+        let At { degree, .. } = self.nodes[c as usize];
+        if degree > HUB_DEGREE
+            && degree & HELD == 0
+            && let Some(hub) = self.hub(s, c)
+        {
+            return hub.neighbours.contains(&d);
+        }
         // Two edges are those of the face.
         let mut rest = self.degree(c) - 2;
         while rest > 0 {
@@ -198,7 +251,7 @@ impl Stars {
             let mut all: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
             let mut ordinary = Vec::new();
             for v in 0..self.nodes.len() as u32 {
-                let At { anchor, .. } = self.nodes[v as usize];
+                let anchor = self.anchor(v);
                 ordinary.clear();
                 if anchor != NONE && !self.fan(s, v, anchor, &mut ordinary) {
                     all.insert(v, Vec::new());
@@ -216,12 +269,32 @@ impl Stars {
         self.singular.as_ref().and_then(|all| all.get(&node)).map_or(&[], Vec::as_slice)
     }
 
-    /// An edge that has got the end `node`.
+    /// The hub that a node with many edges is, `None` where it is singular. Nodes that joints hold are none: two edges
+    /// may join the same two of them.
+    #[cold]
+    fn hub(&mut self, s: &Surface, node: u32) -> Option<&Hub> {
+        let At { anchor, degree } = self.nodes[node as usize];
+        if degree & HUB == 0 {
+            let mut edges = Vec::new();
+            if !self.fan(s, node, anchor, &mut edges) {
+                return None;
+            }
+            let other = |&e: &u32| s.edges[e as usize][0] ^ s.edges[e as usize][1] ^ node;
+            let neighbours = edges.iter().map(other).collect();
+            self.nodes[node as usize] = At { anchor: self.hubs.len() as u32, degree: degree | HUB };
+            self.hubs.push(Hub { anchor, neighbours });
+        }
+        self.hubs.get(self.nodes[node as usize].anchor as usize)
+    }
+
+    /// An edge that has got the end `node`, its other end being `far`.
     #[inline]
-    pub(super) fn gain(&mut self, node: u32, edge: u32) {
+    pub(super) fn gain(&mut self, node: u32, edge: u32, far: u32) {
         let at = &mut self.nodes[node as usize];
         at.degree += 1;
-        if at.anchor == NONE {
+        if at.degree & HUB != 0 {
+            self.hubs[at.anchor as usize].neighbours.insert(far);
+        } else if at.anchor == NONE {
             at.anchor = edge;
         }
         if let Some(list) = self.singular.as_mut().and_then(|all| all.get_mut(&node)) {
@@ -229,12 +302,18 @@ impl Stars {
         }
     }
 
-    /// An edge that has no longer the end `node`; `other` is one that still has ([`NONE`] for none).
+    /// An edge to `far` that has no longer the end `node`; `other` is one that still has ([`NONE`] for none).
     #[inline]
-    pub(super) fn lose(&mut self, node: u32, edge: u32, other: u32) {
+    pub(super) fn lose(&mut self, node: u32, edge: u32, far: u32, other: u32) {
         let at = &mut self.nodes[node as usize];
         at.degree -= 1;
-        if at.anchor == edge {
+        if at.degree & HUB != 0 {
+            let hub = &mut self.hubs[at.anchor as usize];
+            hub.neighbours.remove(&far);
+            if hub.anchor == edge {
+                hub.anchor = other;
+            }
+        } else if at.anchor == edge {
             at.anchor = other;
         }
         if let Some(list) = self.singular.as_mut().and_then(|all| all.get_mut(&node)) {
@@ -242,14 +321,22 @@ impl Stars {
         }
     }
 
-    /// One edge for another at a node.
-    pub(super) fn exchange(&mut self, node: u32, edge: u32, other: u32) {
-        let at = &mut self.nodes[node as usize];
-        if at.anchor == edge {
-            at.anchor = other;
+    /// One edge for another at a node, with their other ends.
+    pub(super) fn exchange(&mut self, node: u32, (edge, far): (u32, u32), (new, new_far): (u32, u32)) {
+        let anchor = self.anchor_mut(node);
+        if *anchor == edge {
+            *anchor = new;
         }
-        if let Some(list) = self.singular.as_mut().and_then(|all| all.get_mut(&node)) {
-            list.iter_mut().filter(|e| **e == edge).for_each(|e| *e = other);
+        let At { anchor, degree } = self.nodes[node as usize];
+        if degree & HUB != 0 {
+            let hub = &mut self.hubs[anchor as usize];
+            hub.neighbours.remove(&far);
+            hub.neighbours.insert(new_far);
+        }
+        if edge != new
+            && let Some(list) = self.singular.as_mut().and_then(|all| all.get_mut(&node))
+        {
+            list.iter_mut().filter(|e| **e == edge).for_each(|e| *e = new);
         }
     }
 
@@ -269,6 +356,33 @@ impl Stars {
         }
     }
 
+    /// A node with its edges known, whatever was known before.
+    pub(super) fn recount(&mut self, s: &Surface, node: u32, edges: &[u32], held: bool) {
+        self.place(node, edges, held, false);
+        let singular = match (&self.singular, edges) {
+            (Some(_), &[first, ..]) => !self.fan(s, node, first, &mut Vec::new()),
+            _ => false,
+        };
+        if singular {
+            self.place(node, edges, held, true);
+        }
+    }
+
+    /// Whether singular nodes have been met, so that they are to be told of.
+    pub(super) fn knows_singular(&self) -> bool {
+        self.singular.is_some()
+    }
+
+    /// Two empty lists, to be given back.
+    pub(super) fn take_scratch(&mut self) -> [Vec<u32>; 2] {
+        std::mem::take(&mut self.scratch)
+    }
+
+    pub(super) fn give_scratch(&mut self, mut scratch: [Vec<u32>; 2]) {
+        scratch.iter_mut().for_each(Vec::clear);
+        self.scratch = scratch;
+    }
+
     /// A node that is no more, or no more there.
     pub(super) fn remove(&mut self, node: u32) {
         self.nodes[node as usize] = ALONE;
@@ -283,7 +397,7 @@ impl Stars {
         let mut anew = Self::new(s);
         let (mut own, mut expected) = (Vec::new(), Vec::new());
         for v in s.live_nodes().map(|v| v.0) {
-            assert_eq!(self.nodes[v as usize].degree, anew.nodes[v as usize].degree, "degree of node {v}");
+            assert_eq!((self.degree(v), self.is_held(v)), (anew.degree(v), anew.is_held(v)), "node {v}");
             self.edges_at(s, v, &mut own);
             anew.edges_at(s, v, &mut expected);
             own.sort_unstable();

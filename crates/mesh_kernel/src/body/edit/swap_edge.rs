@@ -13,6 +13,7 @@
 
 use super::Editor;
 use super::journal::Record;
+use super::link_condition::Neighbourhood;
 use super::stars::{LAST, NEXT, Stars};
 use crate::body::{EdgeId, JointId, NONE, NodeId, Surface, SurfaceId};
 
@@ -49,8 +50,8 @@ pub enum SwapError {
         /// Surfaces that meet there.
         sheets: Vec<SurfaceId>,
     },
-    /// The other diagonal is an edge already.
-    #[error("surface {surface}: nodes {} and {} are joined already; swapping would make the edge twice", nodes[0], nodes[1])]
+    /// The other diagonal is an edge already, in the surface or between nodes that joints make one with these.
+    #[error("surface {surface}: nodes {} and {} are joined already, there or through joints; swapping would make the edge twice", nodes[0], nodes[1])]
     EdgeExists {
         /// Surface.
         surface: SurfaceId,
@@ -123,6 +124,11 @@ impl Editor {
         if c == d || diamond.joined(s, stars, c, d) {
             return Err(SwapError::EdgeExists { surface, nodes: [NodeId(c), NodeId(d)] });
         }
+        let held = stars.is_held(c) || stars.is_held(d);
+        if held && Neighbourhood::new(self).joined((surface, c), (surface, d)) {
+            return Err(SwapError::EdgeExists { surface, nodes: [NodeId(c), NodeId(d)] });
+        }
+        let s = self.body.surface(surface);
         if guard == Guard::NoTurn && turns(s, edge, c, d) {
             return Err(SwapError::Turns { surface, edge });
         }
@@ -163,10 +169,10 @@ impl Editor {
         }
         s.edges[edge.index()] = [new_left[0], new_left[1]];
         if let Some(stars) = &mut self.stars[surface.index()] {
-            stars.lose(a, e, ca);
-            stars.lose(b, e, bc);
-            stars.gain(c, e);
-            stars.gain(d, e);
+            stars.lose(a, e, b, ca);
+            stars.lose(b, e, a, bc);
+            stars.gain(c, e, d);
+            stars.gain(d, e, c);
         }
     }
 }
@@ -181,17 +187,18 @@ impl Diamond {
     #[inline]
     fn at(s: &Surface, edge: u32) -> Self {
         let faces = s.edge_faces[edge as usize];
-        let at = faces.map(|f| {
+        let at = |f: u32| {
             let [x, y, _] = s.face_edges[f as usize];
             if x == edge { 0 } else { 1 + usize::from(y != edge) }
-        });
-        Self { faces, at }
+        };
+        Self { faces, at: [at(faces[0]), at(faces[1])] }
     }
 
     /// The corners that are not on the edge.
     #[inline]
     fn tips(&self, s: &Surface) -> [u32; 2] {
-        [0, 1].map(|k| s.faces[self.faces[k] as usize][LAST[self.at[k]]])
+        let tip = |k: usize| s.faces[self.faces[k] as usize][LAST[self.at[k]]];
+        [tip(0), tip(1)]
     }
 
     /// Whether an edge joins the two tips.

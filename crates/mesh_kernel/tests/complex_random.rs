@@ -1,0 +1,425 @@
+//! Random sequences of operators: after each what must hold holds; all undone and all redone is bit-equal; saved and replayed too.
+//!
+//! `TOILE_RANDOM_OPERATORS=n` runs n accepted operators instead of the default.
+
+// A test that cannot go on fails.
+#![allow(clippy::unwrap_used)]
+
+mod complex_support;
+
+use complex_support::*;
+use mesh_kernel::complex::{
+    Complex, Corner, Delta, DirectedEdge, EdgeClass, EdgeId, EdgeInFace, Editor, End, FaceCorner, FaceId,
+    FaceUse, Journal, Loop, NewFace, Operation, RadialOrder, Refusal, RingsTo, VertexId,
+};
+use mesh_kernel::glam::DVec3;
+
+fn wanted(default: usize) -> usize {
+    std::env::var("TOILE_RANDOM_OPERATORS").ok().and_then(|n| n.parse().ok()).unwrap_or(default)
+}
+
+fn vertex(c: &Complex, random: &mut Random) -> Option<VertexId> {
+    random.pick(&c.vertices().collect::<Vec<_>>())
+}
+
+fn edge(c: &Complex, random: &mut Random) -> Option<EdgeId> {
+    random.pick(&c.edges().collect::<Vec<_>>())
+}
+
+fn face(c: &Complex, random: &mut Random) -> Option<FaceId> {
+    random.pick(&c.faces().collect::<Vec<_>>())
+}
+
+fn corner(c: &Complex, random: &mut Random, f: FaceId) -> Option<Corner> {
+    let loops = c.loops(f);
+    Some(match &loops[random.below(loops.len())] {
+        Loop::Vertex(v) => Corner::Vertex(*v),
+        Loop::Walk(walk) => Corner::Leaving(random.pick(walk)?),
+    })
+}
+
+/// A walk over edges, each once a direction, until it comes back.
+fn closed_walk(c: &Complex, random: &mut Random, taken: &mut Vec<DirectedEdge>) -> Option<Loop> {
+    let start = vertex(c, random)?;
+    if random.below(12) == 0 {
+        return Some(Loop::Vertex(start));
+    }
+    let mut walk: Vec<DirectedEdge> = Vec::new();
+    let mut at = start;
+    for _ in 0..16 {
+        let ways: Vec<DirectedEdge> = c
+            .edges_at(at)
+            .iter()
+            .map(|&edge| DirectedEdge { edge, reversed: c.ends(edge).unwrap()[1] == at })
+            .filter(|d| {
+                !taken.contains(d) && (walk.last().is_none_or(|l| l.edge != d.edge) || random.below(20) == 0)
+            })
+            .collect();
+        let d = random.pick(&ways)?;
+        taken.push(d);
+        walk.push(d);
+        at = c.target(d).unwrap();
+        // Where a vertex comes again, the part since then is a closed walk.
+        if let Some(i) = walk.iter().position(|x| c.origin(*x) == Some(at)) {
+            return Some(Loop::Walk(walk.split_off(i)));
+        }
+    }
+    None
+}
+
+fn new_face(c: &Complex, random: &mut Random) -> Option<NewFace> {
+    let mut taken = Vec::new();
+    let outer = closed_walk(c, random, &mut taken)?;
+    let mut new = NewFace::new(outer);
+    for _ in 0..[0, 0, 0, 1, 2][random.below(5)] {
+        if let Some(ring) = closed_walk(c, random, &mut taken) {
+            new = new.ring(ring);
+        }
+    }
+    // Random places about all edges.
+    let own: Vec<DirectedEdge> = new.loops().flat_map(Loop::edges).copied().collect();
+    let mut orders: Vec<RadialOrder> = Vec::new();
+    for d in own {
+        let u = FaceUse { face: c.next_face(), along: !d.reversed };
+        let i = orders.iter().position(|o| o.edge == d.edge).unwrap_or_else(|| {
+            orders.push(RadialOrder { edge: d.edge, uses: c.uses(d.edge).to_vec() });
+            orders.len() - 1
+        });
+        let at = random.below(orders[i].uses.len() + 1);
+        orders[i].uses.insert(at, u);
+    }
+    new.radial = orders;
+    Some(new)
+}
+
+/// A random operator, possible or not.
+fn operation(c: &Complex, random: &mut Random) -> Option<Operation> {
+    let class = [EdgeClass::Free, EdgeClass::Bend, EdgeClass::Weld][random.below(3)];
+    let flip = random.below(2) == 0;
+    let end = if random.below(2) == 0 { End::Start } else { End::End };
+    let grow = c.vertex_count() < 14;
+    Some(match random.below(24) {
+        0 if grow => Operation::MakeVertexComplex { position: random.place() },
+        1 => Operation::KillVertexComplex { vertex: vertex(c, random)? },
+        2 if grow => Operation::MakeVertexEdge {
+            from: vertex(c, random)?,
+            position: random.place(),
+            corner: None,
+            inward: flip,
+            class,
+        },
+        3 if grow => {
+            let face = face(c, random)?;
+            let corner = corner(c, random, face)?;
+            let from = match corner {
+                Corner::Vertex(v) => v,
+                Corner::Leaving(d) => c.origin(d)?,
+            };
+            let corner = Some(FaceCorner { face, corner });
+            Operation::MakeVertexEdge { from, position: random.place(), corner, inward: flip, class }
+        }
+        4 => Operation::KillVertexEdge { vertex: vertex(c, random)? },
+        5 => Operation::KillVertexRing { vertex: vertex(c, random)? },
+        6..=9 => {
+            let ends = [vertex(c, random)?, vertex(c, random)?];
+            if flip {
+                Operation::MakeEdgeChole { ends, class }
+            } else {
+                Operation::MakeEdgeKillComplex { ends, class }
+            }
+        }
+        10 => match flip {
+            true => Operation::KillEdgeChole { edge: edge(c, random)? },
+            false => Operation::KillEdgeMakeComplex { edge: edge(c, random)? },
+        },
+        11..=16 => {
+            let face = new_face(c, random)?;
+            if random.below(3) > 0 {
+                Operation::MakeFaceKillChole { face }
+            } else {
+                Operation::MakeFaceMakeCavity { face }
+            }
+        }
+        17 => match flip {
+            true => Operation::KillFaceMakeChole { face: face(c, random)? },
+            false => Operation::KillFaceKillCavity { face: face(c, random)? },
+        },
+        18 if grow => Operation::MakeVertexRing { face: face(c, random)?, position: random.place() },
+        19 => {
+            let face = face(c, random)?;
+            let [from, to] = [corner(c, random, face)?, corner(c, random, face)?];
+            Operation::MakeEdgeKillRing { face, from, to, class }
+        }
+        20 => Operation::KillEdgeMakeRing { edge: edge(c, random)?, ring: end },
+        21 if grow => Operation::SplitEdge {
+            edge: edge(c, random)?,
+            position: random.place(),
+            kept: end,
+            flipped: flip,
+        },
+        22 => {
+            let kept = edge(c, random)?;
+            Operation::MergeEdge { kept, vertex: c.ends(kept)?[random.below(2)] }
+        }
+        23 => match random.below(3) {
+            0 => Operation::MoveVertex { vertex: vertex(c, random)?, position: random.place() },
+            1 => Operation::SetEdgeClass { edge: edge(c, random)?, class },
+            _ => {
+                let edge = edge(c, random)?;
+                let mut uses = c.uses(edge).to_vec();
+                let (i, j) = (random.below(uses.len()), random.below(uses.len()));
+                if uses.len() > 2 {
+                    uses.swap(i, j);
+                }
+                Operation::OrderEdge { order: RadialOrder { edge, uses } }
+            }
+        },
+        _ => return None,
+    })
+}
+
+/// What was met, so that the test shows that it is general.
+#[derive(Default, Debug)]
+struct Met {
+    applied: std::collections::BTreeMap<&'static str, usize>,
+    refused: std::collections::BTreeMap<String, usize>,
+    most_uses: usize,
+    most_rings: usize,
+    most_cavities: i64,
+    most_holes: i64,
+}
+
+impl Met {
+    fn look(&mut self, c: &Complex) {
+        let counts = c.counts();
+        self.most_uses = self.most_uses.max(c.edges().map(|e| c.uses(e).len()).max().unwrap_or(0));
+        self.most_rings = self.most_rings.max(c.faces().map(|f| c.loops(f).len() - 1).max().unwrap_or(0));
+        self.most_cavities = self.most_cavities.max(counts.cc);
+        self.most_holes = self.most_holes.max(counts.ch);
+    }
+}
+
+/// Undoes all, does all again, saves and replays.
+fn there_and_back(mut editor: Editor, states: &[Complex]) {
+    let last = editor.complex().clone();
+    for state in states.iter().rev() {
+        assert!(editor.undo());
+        assert_bit_equal(editor.complex(), state);
+    }
+    assert!(!editor.undo());
+    assert_bit_equal(editor.complex(), &Complex::new());
+    while editor.redo() {}
+    assert_bit_equal(editor.complex(), &last);
+    let text = serde_json::to_string(editor.journal()).unwrap();
+    let journal: Journal = serde_json::from_str(&text).unwrap();
+    assert_eq!(&journal, editor.journal());
+    let mut replayed = Editor::default();
+    replayed.replay(&journal).unwrap();
+    assert_bit_equal(replayed.complex(), &last);
+    assert_eq!(replayed.journal(), &journal);
+}
+
+#[test]
+fn random_topology_stays_sound() {
+    let wanted = wanted(4000);
+    let mut met = Met::default();
+    let mut done = 0;
+    let mut seed = 1;
+    while done < wanted {
+        let mut random = Random(seed);
+        seed += 1;
+        let mut editor = Editor::default();
+        let mut states = Vec::new();
+        let mut tries = 0;
+        while states.len() < 60 && tries < 3000 {
+            tries += 1;
+            let Some(operation) = operation(editor.complex(), &mut random) else { continue };
+            let before = editor.complex().clone();
+            match editor.apply(&operation) {
+                Ok(outcome) => {
+                    assert_sound_topology(editor.complex());
+                    let found = Delta::between(&before.counts(), &editor.complex().counts());
+                    assert_eq!(outcome.delta, found, "{operation:?}");
+                    assert!(outcome.delta.keeps_identity());
+                    // The inverse operator, as an operator with all its checks.
+                    let record = editor.journal().done.last().unwrap()[0].clone();
+                    let mut back = Editor::new(editor.complex().clone());
+                    assert_eq!(back.apply(&record.inverse).unwrap().delta, -outcome.delta, "{operation:?}");
+                    assert_bit_equal(back.complex(), &before);
+                    *met.applied.entry(operation.name()).or_default() += 1;
+                    met.look(editor.complex());
+                    states.push(before);
+                }
+                Err(Refusal { reason, .. }) => {
+                    assert_bit_equal(editor.complex(), &before);
+                    assert!(!reason.remedy().is_empty());
+                    let kind = format!("{reason:?}");
+                    let name: String = kind.chars().take_while(|c| c.is_alphanumeric()).collect();
+                    *met.refused.entry(name).or_default() += 1;
+                }
+            }
+        }
+        done += states.len();
+        there_and_back(editor, &states);
+    }
+    assert_eq!(met.applied.len(), 21, "{met:?}");
+    assert!(
+        met.most_uses >= 5 && met.most_rings >= 2 && met.most_cavities >= 2 && met.most_holes >= 3,
+        "{met:?}"
+    );
+    for reason in
+        ["TwoRegions", "NotSeparating", "EdgeKind", "FaceKind", "FacesAtEdge", "FacesTurn", "UsedTwice"]
+    {
+        if reason != "UsedTwice" {
+            assert!(met.refused.contains_key(reason), "{reason} never met: {met:?}");
+        }
+    }
+}
+
+/// Squares and their parts in a lattice, where positions tell all places.
+struct Lattice {
+    editor: Editor,
+    jitter: f64,
+    at: std::collections::BTreeMap<[i32; 3], VertexId>,
+}
+
+const SIDE: i32 = 4;
+
+impl Lattice {
+    fn node(&mut self, random: &mut Random, at: [i32; 3]) -> DVec3 {
+        DVec3::from(at.map(f64::from)) + (random.place() - 0.5) * self.jitter
+    }
+
+    fn corner_at(&mut self, random: &mut Random, at: [i32; 3]) -> Result<VertexId, Refusal> {
+        if let Some(v) = self.at.get(&at) {
+            return Ok(*v);
+        }
+        let position = self.node(random, at);
+        let beside = (0..3).flat_map(|k| {
+            [-1, 1].map(|s| {
+                let mut x = at;
+                x[k] += s;
+                x
+            })
+        });
+        let old: Vec<VertexId> = beside.filter_map(|x| self.at.get(&x).copied()).collect();
+        let v = match random.pick(&old) {
+            Some(old) if random.below(4) > 0 => self.editor.make_vertex_edge(old, position)?.vertex,
+            _ => self.editor.make_vertex_complex(position)?,
+        };
+        self.at.insert(at, v);
+        Ok(v)
+    }
+
+    fn square(&mut self, random: &mut Random) -> Result<(), Refusal> {
+        let at = [0; 3].map(|_| random.below(SIDE as usize) as i32);
+        let axis = random.below(3);
+        let (u, w) = ((axis + 1) % 3, (axis + 2) % 3);
+        let mut corners = Vec::new();
+        for (du, dw) in [(0, 0), (1, 0), (1, 1), (0, 1)] {
+            let mut x = at;
+            x[u] += du;
+            x[w] += dw;
+            corners.push(self.corner_at(random, x)?);
+        }
+        for i in 0..4 {
+            let (a, b) = (corners[i], corners[(i + 1) % 4]);
+            if self.editor.complex().edges_between(a, b).is_empty() {
+                // A split edge has no direct edge any more; then the face is refused below.
+                self.editor.make_edge(a, b)?;
+            }
+        }
+        if random.below(2) == 0 {
+            corners.reverse();
+        }
+        let walk = self.editor.complex().walk(&corners)?;
+        self.editor.make_face(NewFace::new(walk)).map(|_| ())
+    }
+
+    /// Parts a face, or works inside it.
+    fn inside(&mut self, random: &mut Random) -> Result<(), Refusal> {
+        let c = self.editor.complex();
+        let Some(f) = face(c, random) else { return Ok(()) };
+        let (Some(from), Some(to)) = (corner(c, random, f), corner(c, random, f)) else { return Ok(()) };
+        match random.below(5) {
+            0 | 1 => {
+                let before = c.counts();
+                let made = self.editor.mef(&EdgeInFace { face: f, from, to, rings: RingsTo::ByPosition })?;
+                assert_eq!(made.delta, delta(0, 1, 1, 0, 0, 0, 0));
+                assert_eq!(Delta::between(&before, &self.editor.complex().counts()), made.delta);
+                Ok(())
+            }
+            2 => self.editor.make_edge_kill_ring(f, from, to).map(|_| ()),
+            3 => {
+                let corners = c.loop_vertices(&c.loops(f)[0]);
+                let middle =
+                    corners.iter().map(|v| c.position(*v).unwrap()).sum::<DVec3>() / corners.len() as f64;
+                self.editor.make_vertex_ring(f, middle).map(|_| ())
+            }
+            _ => {
+                let Some(e) = edge(c, random) else { return Ok(()) };
+                self.editor.kef(e).map(|_| ())
+            }
+        }
+    }
+
+    fn anything(&mut self, random: &mut Random) -> Result<(), Refusal> {
+        let c = self.editor.complex();
+        let (Some(f), Some(e)) = (face(c, random), edge(c, random)) else { return self.square(random) };
+        match random.below(40) {
+            0..=29 => self.square(random),
+            30..=34 => self.inside(random),
+            35 => self.editor.kill_face(f).map(|_| ()),
+            36 => self.editor.kill_edge(e).map(|_| ()),
+            37 => self.editor.flip_face(f).map(|_| ()),
+            _ => {
+                let [a, b] = c.ends(e).unwrap().map(|v| c.position(v).unwrap());
+                self.editor.split_edge(e, (a + b) * 0.5).map(|_| ())
+            }
+        }
+    }
+}
+
+#[test]
+fn random_lattices_stay_sound_with_their_positions() {
+    let wanted = wanted(2000);
+    let mut done = 0;
+    let mut met = Met::default();
+    let mut seed = 1;
+    while done < wanted {
+        let mut random = Random(seed * 77);
+        let jitter = if seed % 2 == 0 { 0.0 } else { 0.2 };
+        seed += 1;
+        let mut lattice = Lattice { editor: Editor::default(), jitter, at: Default::default() };
+        let mut states = Vec::new();
+        for _ in 0..160 {
+            let before = lattice.editor.complex().clone();
+            let at = lattice.at.clone();
+            let mut editor = std::mem::take(&mut lattice.editor);
+            // One transaction: on a refusal nothing has happened.
+            let result = editor.transaction(|inner| {
+                std::mem::swap(inner, &mut lattice.editor);
+                let result = lattice.anything(&mut random);
+                std::mem::swap(inner, &mut lattice.editor);
+                result
+            });
+            lattice.editor = editor;
+            if result.is_err() {
+                assert_bit_equal(lattice.editor.complex(), &before);
+                lattice.at = at;
+                continue;
+            }
+            lattice.at.retain(|_, v| lattice.editor.complex().position(*v).is_some());
+            if *lattice.editor.complex() != before {
+                assert_sound_topology(lattice.editor.complex());
+                met.look(lattice.editor.complex());
+                states.push(before);
+            }
+        }
+        let crossing = |e: &Editor| e.complex().check();
+        assert_eq!(crossing(&lattice.editor), [], "seed {seed}");
+        done += lattice.editor.journal().operations().count();
+        there_and_back(lattice.editor, &states);
+    }
+    assert!(met.most_uses >= 4 && met.most_cavities >= 1, "{met:?}");
+}
