@@ -6,7 +6,7 @@ rounds=${1:-5}
 work=target/peers
 mkdir -p "$work"
 
-cargo build --release -q -p mesh_kernel --example peer_ours
+cargo build --release -q --locked -p mesh_kernel --example peer_ours
 ours=target/release/examples/peer_ours
 "$ours" panel "$work"
 for peer in openmesh cgal; do

@@ -10,13 +10,14 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use mesh_kernel::TriMesh;
-use mesh_kernel::body::edit::{Editor, Guard};
-use mesh_kernel::body::{Body, EdgeId, NONE, SurfaceId, SurfaceSpec};
+use mesh_kernel::body::edit::{CollapseOptions, Editor, Guard};
+use mesh_kernel::body::{Body, EdgeId, NONE, NodeId, SurfaceId, SurfaceSpec};
 use mesh_kernel::glam::DVec3;
 
 /// Cells on a side of the panel: some 200,000 triangles.
 const CELLS: usize = 316;
 const SPLITS: usize = 100_000;
+const COLLAPSES: usize = 50_000;
 
 const SURFACE: SurfaceId = SurfaceId(0);
 
@@ -149,6 +150,21 @@ fn run() {
                 order[..SPLITS].iter().filter(split).count()
             });
         }
+        let mut editor = open(body.clone());
+        timed(library, "collapse, random", || {
+            let options = CollapseOptions::default();
+            let mut valid = 0;
+            for &e in &random {
+                // An edge that went with another is no edge any more.
+                let [_, keep] = editor.body().surface(SURFACE).edges()[e as usize];
+                let done = editor.collapse_edge(SURFACE, EdgeId(e), NodeId(keep), &options);
+                valid += usize::from(done.is_ok());
+                if valid == COLLAPSES {
+                    break;
+                }
+            }
+            valid
+        });
     }
 }
 

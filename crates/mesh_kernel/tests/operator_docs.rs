@@ -10,8 +10,8 @@ use std::path::{Path, PathBuf};
 
 use mesh_kernel::body::edit::{CollapseOptions, Editor, Guard, Operation};
 use mesh_kernel::body::{
-    AttributeEdge, AttributeNode, AttributeNodeId, Body, ChainSpec, Counts, EdgeId, FaceId, JointSpec, NodeId,
-    SurfaceId, SurfaceSpec,
+    AttributeEdge, AttributeNode, AttributeNodeId, Body, ChainSpec, Counts, EdgeId, FaceId, JointSpec,
+    NodeId, SurfaceId, SurfaceSpec,
 };
 use mesh_kernel::glam::DVec3;
 
@@ -41,7 +41,8 @@ fn wires(points: &[(f64, f64)], edges: &[(u32, u32)]) -> Body {
 /// Six triangles round node 0.
 fn disk() -> Body {
     let mut points = vec![(0.0, 0.0)];
-    points.extend((0..6).map(|k| (f64::from(k) * std::f64::consts::FRAC_PI_3).sin_cos()).map(|(s, c)| (c, s)));
+    points
+        .extend((0..6).map(|k| (f64::from(k) * std::f64::consts::FRAC_PI_3).sin_cos()).map(|(s, c)| (c, s)));
     let faces: Vec<[u32; 3]> = (0..6).map(|k| [0, 1 + k, 1 + (k + 1) % 6]).collect();
     flat(&points, &faces)
 }
@@ -179,8 +180,14 @@ fn euler() -> Vec<Entry> {
             text: "A line between two such nodes (ATTRIB_EDGE); e + 1 and r − 1 cancel likewise. Inverse: `kill_edge_make_ring`. Lee & Kim: MEKL.",
             cost: "O(1)",
             before: with_attributes(triangle(), &[ring([0.6, 0.2, 0.2]), ring([0.2, 0.5, 0.3])], &[]),
-            operation: Operation::MakeEdgeKillRing { surface: S, nodes: [AttributeNodeId(0), AttributeNodeId(1)] },
-            refused: Operation::MakeEdgeKillRing { surface: S, nodes: [AttributeNodeId(0), AttributeNodeId(7)] },
+            operation: Operation::MakeEdgeKillRing {
+                surface: S,
+                nodes: [AttributeNodeId(0), AttributeNodeId(1)],
+            },
+            refused: Operation::MakeEdgeKillRing {
+                surface: S,
+                nodes: [AttributeNodeId(0), AttributeNodeId(7)],
+            },
         },
     ]
 }
@@ -288,7 +295,8 @@ fn joints() -> Vec<Entry> {
 }
 
 fn delta(a: Counts, b: Counts) -> String {
-    let part = |name: &str, d: i64| (d != 0).then(|| format!("{name} {}{}", if d < 0 { "−" } else { "+" }, d.abs()));
+    let part =
+        |name: &str, d: i64| (d != 0).then(|| format!("{name} {}{}", if d < 0 { "−" } else { "+" }, d.abs()));
     let parts = [
         part("v", b.v - a.v),
         part("e", b.e - a.e),
@@ -313,7 +321,11 @@ fn keep(path: &Path, text: &str) {
         std::fs::write(path, text).unwrap();
     }
     let there = std::fs::read_to_string(path).unwrap_or_default();
-    assert!(there == text, "{} is out of date: run with UPDATE_DOCS=1 and look at the change", path.display());
+    assert!(
+        there == text,
+        "{} is out of date: run with UPDATE_DOCS=1 and look at the change",
+        path.display()
+    );
 }
 
 const HEAD: &str = "# Operators

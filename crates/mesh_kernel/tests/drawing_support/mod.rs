@@ -67,7 +67,13 @@ fn draw(svg: &mut String, body: &Body, place: &dyn Fn(DVec3) -> DVec2) {
             let [a, b] = s.edges()[e.index()].map(|v| at(id, v));
             let joint = s.edge_chain(e).is_some_and(|c| s.chain(c).joint().is_some());
             let wire = s.edge_faces()[e.index()] == [NONE; 2];
-            let (stroke, width) = if joint { ("#b03030", 3.0) } else if wire { ("#333", 2.0) } else { ("#333", 1.0) };
+            let (stroke, width) = if joint {
+                ("#b03030", 3.0)
+            } else if wire {
+                ("#333", 2.0)
+            } else {
+                ("#333", 1.0)
+            };
             let _ = writeln!(
                 svg,
                 r#"<path d="M {:.1} {:.1} L {:.1} {:.1}" stroke="{stroke}" stroke-width="{width}"/>"#,
@@ -90,7 +96,8 @@ fn lines(svg: &mut String, s: &mesh_kernel::body::Surface, place: &dyn Fn(DVec3)
     let at = |n: AttributeNodeId| place(s.attribute_position(n));
     for l in 0..s.attribute_edges().len() as u32 {
         let nodes = &s.attribute_edges()[AttributeEdgeId(l).index()].nodes;
-        let path: Vec<String> = nodes.iter().map(|&n| at(n)).map(|p| format!("{:.1} {:.1}", p.x, p.y)).collect();
+        let path: Vec<String> =
+            nodes.iter().map(|&n| at(n)).map(|p| format!("{:.1} {:.1}", p.x, p.y)).collect();
         let _ = writeln!(
             svg,
             r##"<path d="M {}" fill="none" stroke="#7a2fa0" stroke-width="2" stroke-dasharray="5 3"/>"##,
