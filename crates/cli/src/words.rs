@@ -243,7 +243,8 @@ pub(crate) struct Tape {
     pub(crate) ankle: Option<f64>,
 }
 
-/// A model: OBJ (groups are surfaces), PLY, STL, OFF or GLB.
+/// A model: OBJ (groups are surfaces), PLY, STL, OFF or GLB; or a body with all its joints, attributes and numbers
+/// (.body.json).
 #[derive(Debug, Args)]
 pub(crate) struct Model {
     /// The model.

@@ -1,7 +1,6 @@
 //! What a model holds: sizes, counts, boundary.
 
-use mesh_kernel::TriMesh;
-use mesh_kernel::body::{Body, BuildError};
+use mesh_kernel::body::Body;
 use serde::Serialize;
 
 /// The report of `toile info`; areas and volumes in the file's units.
@@ -38,15 +37,11 @@ pub struct ModelInfo {
 }
 
 impl ModelInfo {
-    /// Counts a mesh whose groups are its surfaces. O(n log n).
-    ///
-    /// # Errors
-    /// [`BuildError`] when the groups are no surfaces.
-    pub fn of(mesh: &TriMesh) -> Result<Self, BuildError> {
-        let body = Body::from_tri_mesh(mesh)?;
+    /// Counts a body. O(n log n).
+    pub fn of(body: &Body) -> Self {
         let counts = body.counts();
-        let boundary_loops = boundary_curves(&body);
-        Ok(Self {
+        let boundary_loops = boundary_curves(body);
+        Self {
             surfaces: body.surfaces().len(),
             joints: body.joint_count(),
             nodes: counts.v,
@@ -61,7 +56,7 @@ impl ModelInfo {
             closed: boundary_loops == 0,
             area: body.area(),
             volume: body.volume(),
-        })
+        }
     }
 }
 
@@ -92,6 +87,7 @@ fn root(parent: &mut [u32], mut n: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use mesh_kernel::TriMesh;
     use mesh_kernel::glam::DVec3;
 
     #[test]
@@ -99,7 +95,7 @@ mod tests {
         let tip = |angle: f64| DVec3::new(angle.cos(), angle.sin(), 0.0);
         let positions = vec![DVec3::ZERO, DVec3::Z, tip(0.0), tip(2.0), tip(4.0)];
         let mesh = TriMesh::new(positions, vec![[0, 1, 2], [0, 1, 3], [0, 1, 4]]);
-        let info = ModelInfo::of(&mesh).unwrap();
+        let info = ModelInfo::of(&Body::from_tri_mesh(&mesh).unwrap());
         assert_eq!((info.nodes, info.edges, info.faces), (5, 7, 3));
         assert_eq!((info.joints, info.boundary_loops, info.closed), (1, 1, false));
         assert!(info.identity_holds);
@@ -109,7 +105,7 @@ mod tests {
     fn a_tetrahedron_is_closed() {
         let positions = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
         let mesh = TriMesh::new(positions, vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]);
-        let info = ModelInfo::of(&mesh).unwrap();
+        let info = ModelInfo::of(&Body::from_tri_mesh(&mesh).unwrap());
         assert!(info.closed && info.identity_holds);
         assert_eq!((info.voids, info.components), (1, 1));
         assert!((info.volume.unwrap() - 1.0 / 6.0).abs() < 1e-12);

@@ -1,9 +1,8 @@
 //! `toile check`: every broken rule of a model.
 
-use mesh_kernel::body::Body;
 use serde::Serialize;
 
-use super::read_mesh;
+use super::read_body;
 use crate::failure::Failure;
 use crate::speech::Speech;
 use crate::words::Model;
@@ -19,9 +18,8 @@ struct Checked {
 
 pub(crate) fn run(words: &Model, speech: &Speech) -> Result<(), Failure> {
     speech.step("reading");
-    let mesh = read_mesh(&words.model)?;
+    let body = read_body(&words.model)?;
     speech.step("checking");
-    let body = Body::from_tri_mesh(&mesh)?;
     let defects: Vec<String> = body.check().iter().map(ToString::to_string).collect();
     let checked = Checked { ok: defects.is_empty(), defects };
     speech.report(&checked, || {

@@ -2,16 +2,16 @@
 
 use design::model_info::ModelInfo;
 
-use super::read_mesh;
+use super::read_body;
 use crate::failure::Failure;
 use crate::speech::{Speech, table};
 use crate::words::Model;
 
 pub(crate) fn run(words: &Model, speech: &Speech) -> Result<(), Failure> {
     speech.step("reading");
-    let mesh = read_mesh(&words.model)?;
+    let body = read_body(&words.model)?;
     speech.step("counting");
-    let info = ModelInfo::of(&mesh).map_err(|e| Failure::from(e).about(&words.model))?;
+    let info = ModelInfo::of(&body);
     speech.report(&info, || {
         let rows = [
             ("surfaces", info.surfaces.to_string()),

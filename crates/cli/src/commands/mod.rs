@@ -14,6 +14,7 @@ pub(crate) mod render;
 use std::path::Path;
 
 use mesh_kernel::TriMesh;
+use mesh_kernel::body::{BODY_FILE_EXTENSION, Body};
 use mesh_kernel::files;
 
 use crate::failure::Failure;
@@ -21,6 +22,16 @@ use crate::failure::Failure;
 /// Reads a mesh; the message names the file.
 fn read_mesh(path: &Path) -> Result<TriMesh, Failure> {
     files::read(path).map_err(|e| Failure::from(e).about(path))
+}
+
+/// Reads a body: a native body file, or a mesh whose groups are its surfaces. The message names the file.
+fn read_body(path: &Path) -> Result<Body, Failure> {
+    if !file_name(path).to_ascii_lowercase().ends_with(BODY_FILE_EXTENSION) {
+        return Body::from_tri_mesh(&read_mesh(path)?).map_err(|e| Failure::from(e).about(path));
+    }
+    let bytes =
+        std::fs::read(path).map_err(|e| Failure::new(format!("cannot read {}: {e}", path.display())))?;
+    Body::from_file_bytes(&bytes).map_err(|e| Failure::new(format!("{}: {e}", path.display())))
 }
 
 /// Writes a file whole or not at all.
