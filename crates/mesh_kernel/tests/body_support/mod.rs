@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, dead_code, unreachable_pub, missing_docs)]
 
 pub mod operations;
+pub mod sequences;
 
 use mesh_kernel::body::{
     AttributeEdge, AttributeNode, Body, ChainSpec, EdgeId, FaceId, JointSpec, NodeId, SurfaceId, SurfaceSpec,

@@ -420,6 +420,22 @@ impl Source {
                 Operation::SplitEdge { surface, edge: self.edge(s), at }
             }
             3 if !big => Operation::SplitFace { surface, face: self.face(s) },
+            7 if carrying && !big => {
+                // A face that carries something, where one is found.
+                let hosts: Vec<FaceId> = s
+                    .attribute_nodes()
+                    .iter()
+                    .map(|n| match n {
+                        AttributeNode::InFace { face, .. } => *face,
+                        AttributeNode::OnEdge { edge, .. } => {
+                            let [left, right] = s.edge_faces()[edge.index()];
+                            FaceId(if left == NONE { right } else { left })
+                        }
+                    })
+                    .collect();
+                let face = pick(&mut self.random, &hosts).unwrap_or_else(|| self.face(s));
+                Operation::TriangulateFace { surface, face }
+            }
             4..=6 if !carrying => {
                 let edge = self.edge(s);
                 let ends = s.edges().get(edge.index()).copied().unwrap_or([0, 1]);

@@ -441,12 +441,29 @@ impl Editor {
             joints.dedup();
             return Err(CollapseError::BothHeld { surface, edge, joints });
         }
+        // Joints without edges: they hold exactly the nodes that would go.
+        let joints = self.point_joints_at(&stars[0].class);
+        if !joints.is_empty() {
+            let (removed, kept) = (NodeId(removed), NodeId(kept));
+            return Err(CollapseError::HeldByJoints { surface, removed, kept, joints });
+        }
         if let Some(obstacle) = obstacle(&stars[0], &stars[1], ab) {
             return Err(self.shape(surface, edge, obstacle));
         }
         let [_, star] = stars;
         *moved = star.class;
         Ok(())
+    }
+
+    fn point_joints_at(&self, nodes: &[Place]) -> Vec<JointId> {
+        let at = |&(surface, v): &Place| {
+            let chains = &self.body.surface(surface).chains;
+            chains.iter().filter(move |c| c.edges.is_empty() && c.start.0 == v).filter_map(|c| c.joint)
+        };
+        let mut joints: Vec<JointId> = nodes.iter().flat_map(at).collect();
+        joints.sort_unstable();
+        joints.dedup();
+        joints
     }
 
     /// Joints at nodes, in order, other than the one that an edge lies on; that one where there is no other.

@@ -15,6 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::Editor;
 use super::delta::{Delta, NodeValue, Recorder};
+use super::loops::rebuild;
 use super::operation::Operation;
 use crate::body::carry::Piece;
 use crate::body::surface::chain_slot;
@@ -119,8 +120,6 @@ struct Plan {
     edges: Vec<(u32, u32, u32)>,
     /// Faces that are cut, in order.
     faces: BTreeMap<u32, Cut>,
-    /// Whether loops may begin elsewhere after it.
-    unsettles: bool,
 }
 
 /// A face that is cut, with the numbers of its parts.
@@ -141,8 +140,7 @@ impl Editor {
     /// loops, attributes, backup and planar positions follow.
     ///
     /// # Errors
-    /// Unknown ids; ids run out. Nothing is changed then. O(edges of the chains concerned), and O(edges) where a loop
-    /// begins elsewhere after it.
+    /// Unknown ids; ids run out. Nothing is changed then. O(edges of the surfaces' chains).
     pub fn split_face(&mut self, surface: SurfaceId, face: FaceId) -> Result<FaceSplit, SplitFaceError> {
         let plans = self.body.plan_split(surface, face)?;
         let sides = self.body.surface(surface).face_edges[face.index()];
@@ -222,13 +220,8 @@ impl Plan {
             next_edge += cuts.len();
             faces.insert(f, Cut { cutting, faces: parts, cuts });
         }
-        let reversed = |e: u32| {
-            let on = s.edge_chain(EdgeId(e)).map(|c| s.chain(c)).filter(|c| c.on_loop.is_some());
-            on.is_some() && (s.edge_faces[e as usize][0] == NONE || !s.slots.edges.is_compact())
-        };
-        let unsettles = edges.iter().any(|&e| reversed(e));
         let edges = edges.iter().enumerate().map(|(k, &e)| (e, node(k), edge(k))).collect();
-        Self { edges, faces, unsettles }
+        Self { edges, faces }
     }
 
     /// The node and the second half of an edge that is split.
@@ -267,10 +260,7 @@ impl Plan {
         if self.edges.iter().any(|&(e, ..)| r.surface().edge_chain(EdgeId(e)).is_some()) {
             r.change_boundary(|s| {
                 self.lengthen_chains(s);
-                if self.unsettles {
-                    s.drop_loops();
-                    s.find_loops();
-                }
+                rebuild(s);
             });
         }
     }

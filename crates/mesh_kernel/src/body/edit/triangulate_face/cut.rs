@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use super::super::delta::{Delta, NodeValue, Recorder};
 use super::super::face_mesh::FaceMesh;
+use super::super::loops::rebuild;
 use super::{Step, SurfacePlan, Target};
 use crate::body::carry::Piece;
 use crate::body::{
@@ -174,7 +175,13 @@ pub(super) fn apply(
             }
         }
     }
-    rec.change_boundary(|s| lengthen_chains(s, plan, numbers));
+    let on_chain = |(e, _): &(u32, _)| rec.surface().edge_chain(EdgeId(*e)).is_some();
+    if plan.edges.iter().any(on_chain) {
+        rec.change_boundary(|s| {
+            lengthen_chains(s, plan, numbers);
+            rebuild(s);
+        });
+    }
     rec.finish()
 }
 
