@@ -370,10 +370,10 @@ impl Lattice {
             }
             _ => {
                 let Some(e) = edge(c, random) else { return Ok(()) };
-                // Not over a fold: the one face would have no plane.
+                // Only in one plane: a bent face leaves its edges in no direction that could be told.
                 let normals: Vec<DVec3> = c.uses(e).iter().map(|u| normal(c, u.face)).collect();
                 match normals[..] {
-                    [a, b] if a.dot(b) > 0.9 => self.editor.kef(e).map(|_| ()),
+                    [a, b] if self.jitter == 0.0 && a.dot(b) > 0.9 => self.editor.kef(e).map(|_| ()),
                     _ => Ok(()),
                 }
             }
