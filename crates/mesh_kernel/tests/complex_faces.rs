@@ -269,3 +269,57 @@ fn an_order_that_would_open_a_cavity_is_refused() {
     let refusal = m.apply(&operation).unwrap_err();
     assert!(matches!(refusal.reason, Reason::OrderChangesRegions { .. }), "{refusal}");
 }
+
+#[test]
+fn places_of_facets_that_are_not_convex() {
+    // An arch: at the inner edge of its notch both neighbouring corners lie on the other side of the edge than the arch itself. And
+    // a plate with a hole, joined at an edge of the hole.
+    let arch = [
+        [0.0, 0.0],
+        [1.0, 0.0],
+        [1.0, -1.0],
+        [2.0, -1.0],
+        [2.0, 2.0],
+        [-1.0, 2.0],
+        [-1.0, -1.0],
+        [0.0, -1.0],
+    ];
+    for turned in [false, true] {
+        for axes in [[0, 1, 2], [1, 2, 0], [2, 0, 1], [1, 0, 2]] {
+            let at = |x: f64, y: f64, z: f64| {
+                let mut q = [0.0; 3];
+                (q[axes[0]], q[axes[1]], q[axes[2]]) = (x, y, z);
+                DVec3::from(q)
+            };
+            let mut points: Vec<DVec3> = arch.iter().map(|[x, y]| at(*x, *y, 0.0)).collect();
+            // Leaves at the edge, a little above and a little below the plane of the arch, on both sides of the edge.
+            for (y, z) in [(1.0, 0.1), (1.0, -0.1), (-1.0, 0.1), (-1.0, -0.1)] {
+                points.push(at(0.5, y, z));
+            }
+            let mut first: Vec<usize> = (0..8).collect();
+            if turned {
+                first.reverse();
+            }
+            let editor =
+                build(&points, &[first, vec![0, 1, 8], vec![1, 0, 9], vec![0, 1, 10], vec![1, 0, 11]]);
+            assert_sound(editor.complex());
+            let c = editor.complex();
+            let e = c.edges().find(|e| c.uses(*e).len() == 5).unwrap();
+            let order: Vec<u32> = c.uses(e).iter().map(|u| u.face.0).collect();
+            // The arch lies between the two leaves on its side: 1, 0, 2 in one direction or the other.
+            assert!(order == [0, 1, 3, 4, 2] || order == [0, 2, 4, 3, 1], "{order:?}");
+        }
+    }
+    let square = |a: f64, b: f64| [p(a, a, 0.0), p(b, a, 0.0), p(b, b, 0.0), p(a, b, 0.0)];
+    let mut points = [square(0.0, 3.0), square(1.0, 2.0)].concat();
+    points.extend([p(1.5, 0.0, 0.1), p(1.5, 0.0, -0.1), p(1.5, 2.0, 0.1)]);
+    let mut editor = Editor::default();
+    let plate = vec![vec![0, 1, 2, 3], vec![4, 7, 6, 5]];
+    let leaves = [[4, 5, 8], [5, 4, 9], [4, 5, 10]].map(|l| vec![l.to_vec()]);
+    add_faces(&mut editor, &points, &[vec![plate], leaves.to_vec()].concat());
+    assert_sound(editor.complex());
+    let c = editor.complex();
+    let e = c.edges().find(|e| c.uses(*e).len() == 4).unwrap();
+    let order: Vec<u32> = c.uses(e).iter().map(|u| u.face.0).collect();
+    assert!(order == [0, 1, 3, 2] || order == [0, 2, 3, 1], "{order:?}");
+}

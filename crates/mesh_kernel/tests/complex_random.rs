@@ -474,7 +474,7 @@ fn damage(value: &mut serde_json::Value, random: &mut Random) {
 }
 
 #[test]
-fn damaged_journals_are_refused_or_sound() {
+fn damaged_files_are_refused_or_sound() {
     let mut random = Random(99);
     let mut editor = Editor::default();
     let mut count = 0;
@@ -485,6 +485,22 @@ fn damaged_journals_are_refused_or_sound() {
             count += 1;
         }
     }
+    // The complex itself, too.
+    let stored = serde_json::to_value(editor.complex()).unwrap();
+    assert_bit_equal(&serde_json::from_value::<Complex>(stored.clone()).unwrap(), editor.complex());
+    let (mut good, mut bad) = (0, 0);
+    for _ in 0..wanted(3000) {
+        let mut damaged = stored.clone();
+        damage(&mut damaged, &mut random);
+        match serde_json::from_value::<Complex>(damaged) {
+            Ok(complex) => {
+                assert_sound_topology(&complex);
+                good += 1;
+            }
+            Err(_) => bad += 1,
+        }
+    }
+    assert!(good > 10 && bad > 1000, "{good} {bad}");
     let whole = serde_json::to_value(editor.journal()).unwrap();
     let (mut read, mut refused, mut sound) = (0, 0, 0);
     for _ in 0..wanted(3000) {
