@@ -3,6 +3,7 @@
 mod bodies;
 mod designs;
 mod finds;
+mod journals;
 mod meshes;
 
 use fuzz::{CountingAllocator, Reader, fuzz};

@@ -71,7 +71,7 @@ impl EdgePairings {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resolution {
     /// The body. Surfaces, nodes, edges and faces keep their ids; copies come after them. Chains and loops are numbered
-    /// anew.
+    /// anew, and joints without gaps.
     pub body: Body,
     /// New id of every joint that there was, `None` where it is gone.
     pub joints: Vec<Option<JointId>>,
@@ -220,7 +220,10 @@ impl Body {
     /// No such joint; one without edges; wires in it; an odd number of sheets; two enters or leaves in a row.
     /// O(sheets).
     pub fn edge_pairings(&self, joint: JointId) -> Result<EdgePairings, PairingError> {
-        let j = self.joints.get(joint.index()).ok_or(PairingError::NoJoint(joint))?;
+        if !self.is_joint(joint) {
+            return Err(PairingError::NoJoint(joint));
+        }
+        let j = self.joint(joint);
         if self.joint_len(joint) == 0 {
             return Err(PairingError::NoEdges { joint });
         }
