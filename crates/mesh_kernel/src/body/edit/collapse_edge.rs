@@ -423,9 +423,10 @@ impl Editor {
             ends.sort_unstable();
             ends
         };
+        // A joint without edges may hold nodes that are one already: they must not go under it.
         let free = [
-            stars[0].class == ends(|m| (m.surface, m.removed)),
-            stars[1].class == ends(|m| (m.surface, m.kept)),
+            !stars[0].pinned && stars[0].class == ends(|m| (m.surface, m.removed)),
+            !stars[1].pinned && stars[1].class == ends(|m| (m.surface, m.kept)),
         ];
         if !free[0] {
             let on = s_joint(self.body(), surface, edge);
