@@ -170,6 +170,26 @@ fn run(seed: u64, operators: usize) -> Run {
                     break;
                 }
                 if !wrong.is_empty() {
+                    if let Some(mesh_kernel::body::Defect::AttributeApart { surface, line, at }) =
+                        wrong.first()
+                    {
+                        for b in [&before, editor.body()] {
+                            let s = b.surface(*surface);
+                            let Some(l) = s.attribute_edges().get(line.index()) else { continue };
+                            eprintln!("line {l:?} at {at}");
+                            for n in &l.nodes {
+                                let n = s.attribute_nodes()[n.index()];
+                                eprintln!("{n:?}");
+                                if let mesh_kernel::body::AttributeNode::OnEdge { edge, .. } = n {
+                                    eprintln!(
+                                        "  {:?} {:?}",
+                                        s.edges()[edge.index()],
+                                        s.edge_faces()[edge.index()]
+                                    );
+                                }
+                            }
+                        }
+                    }
                     fail(&format!("{wrong:?}"), &editor, &operation);
                 }
                 if miscounted {

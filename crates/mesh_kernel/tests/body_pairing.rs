@@ -24,6 +24,12 @@ fn resolve_edge(body: &Body, joint: JointId, pairing: Pairing) -> Resolution {
     let edges = body.joint_len(joint) as i64;
     let pairs = body.joint(joint).radial().len() as i64 / 2;
     assert_eq!(done.after.e - done.before.e, (pairs - 1) * edges);
+    // The same as an operator: undone and done again, bit for bit.
+    let mut editor = Editor::new(body.clone());
+    editor.resolve_edge(joint, pairing).unwrap();
+    assert_eq!(editor.body(), &done.body);
+    assert!(editor.undo() && editor.body() == body && editor.redo());
+    assert_eq!(editor.body(), &done.body);
     done
 }
 

@@ -17,6 +17,18 @@ pub(crate) struct Piece {
 /// Where a line meets a cut this near to another crossing, in shares of the line, both are one.
 const SAME_CROSSING: f64 = 1e-12;
 
+/// A parameter of an edge; so near an end that only rounding is in between, that end. A line that passes a node must not
+/// pass beside it.
+fn snapped(u: f64) -> f64 {
+    if u <= SAME_CROSSING {
+        0.0
+    } else if u >= 1.0 - SAME_CROSSING {
+        1.0
+    } else {
+        u
+    }
+}
+
 fn determinant(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
     a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
         + a[2] * (b[0] * c[1] - b[1] * c[0])
@@ -29,7 +41,7 @@ impl Piece {
             if determinant(a, b, p) == 0.0 {
                 let u = along(a, b, p);
                 if (0.0..=1.0).contains(&u) {
-                    return AttributeNode::OnEdge { edge: EdgeId(edge), u };
+                    return AttributeNode::OnEdge { edge: EdgeId(edge), u: snapped(u) };
                 }
             }
         }
@@ -61,7 +73,7 @@ impl Piece {
             let x = [0, 1, 2].map(|i| p[i] + (q[i] - p[i]) * t);
             let u = along(a, b, x);
             if (-SAME_CROSSING..=1.0 + SAME_CROSSING).contains(&u) {
-                found.push((t, AttributeNode::OnEdge { edge: EdgeId(edge), u: u.clamp(0.0, 1.0) }));
+                found.push((t, AttributeNode::OnEdge { edge: EdgeId(edge), u: snapped(u) }));
             }
         }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -36,8 +36,23 @@ fn reader(name: &'static str, read: impl Fn(&[u8]) -> Reading + Send + 'static) 
         shape: Shape::Json,
         seeds: seeds(),
         words: &[
-            "null", "compact", "split_all", "split_face", "split_edge", "swap_edge", "collapse_edge", "kill_face",
-            "kill_joint", "make_joint", "make_face", "make_edge", "group", "surface", "edge", "face", "node",
+            "null",
+            "compact",
+            "split_all",
+            "split_face",
+            "split_edge",
+            "swap_edge",
+            "collapse_edge",
+            "kill_face",
+            "kill_joint",
+            "make_joint",
+            "make_face",
+            "make_edge",
+            "group",
+            "surface",
+            "edge",
+            "face",
+            "node",
         ],
         inputs: 5_000,
         base_memory: 1 << 16,
@@ -85,7 +100,10 @@ fn replay() {
             if let Err(refusal) = editor.apply(operation) {
                 refused += 1;
                 assert!(!refusal.to_string().is_empty());
-                assert!(editor.undo_len() == steps && *editor.body() == before, "a refusal changed something");
+                assert!(
+                    editor.undo_len() == steps && *editor.body() == before,
+                    "a refusal changed something"
+                );
             }
         }
         let end = editor.body().clone();

@@ -36,7 +36,8 @@ use super::sectors::Crossing;
 use super::{Body, JointUse};
 
 /// What is meant where sheets meet at a non-manifold edge or node.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Pairing {
     /// Touch and join: material is one across the edge or through the node.
     Join,
