@@ -1,6 +1,7 @@
 //! Every reader of the libraries on damaged files. See the crate's documentation.
 
 mod bodies;
+mod complexes;
 mod designs;
 mod finds;
 mod journals;

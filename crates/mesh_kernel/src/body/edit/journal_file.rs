@@ -49,7 +49,7 @@ pub struct ReplayError {
     /// The operation.
     pub operation: Box<Operation>,
     /// Why.
-    pub refusal: Refusal,
+    pub refusal: Box<Refusal>,
 }
 
 impl JournalFile {
@@ -111,7 +111,7 @@ impl JournalFile {
         for (number, operation) in self.operations.iter().enumerate() {
             editor.apply(operation).map_err(|refusal| {
                 let operation = Box::new(operation.clone());
-                ReplayError { number, operation, refusal }
+                ReplayError { number, operation, refusal: Box::new(refusal) }
             })?;
         }
         Ok(editor)
