@@ -21,8 +21,8 @@ use mesh_kernel::query::Crossings;
 /// Operators that run on one body.
 const ON_ONE: usize = 150;
 
-/// Operators of a usual run.
-const USUAL: u64 = 12_000;
+/// Bodies of a usual run, and operators that must have been carried out on them.
+const USUAL: (u64, u64) = (400, 20_000);
 
 fn start(seed: u64) -> Body {
     let mut source = Source::new(seed);
@@ -220,7 +220,11 @@ fn fault(seed: u64, operations: &[Operation]) -> Option<String> {
 fn fail(seed: u64, what: &str, operations: &[Operation]) -> ! {
     let few = minimise(operations, |o| fault(seed, o).is_some()).unwrap_or_else(|| operations.to_vec());
     let now = fault(seed, &few).unwrap_or_default();
-    panic!("seed {seed}: {what}\n{} operations do it ({now}):\n{}", few.len(), serde_json::to_string(&few).unwrap());
+    panic!(
+        "seed {seed}: {what}\n{} operations do it ({now}):\n{}",
+        few.len(),
+        serde_json::to_string(&few).unwrap()
+    );
 }
 
 /// What came of a run.
@@ -266,13 +270,19 @@ fn random_operators_keep_bodies_sound_and_are_undone_bit_for_bit() {
     let wanted: Option<u64> = std::env::var("TOILE_RANDOM_OPERATORS").ok().and_then(|n| n.parse().ok());
     let first: u64 = std::env::var("TOILE_RANDOM_SEED").ok().and_then(|n| n.parse().ok()).unwrap_or(0);
     let seed = AtomicU64::new(first);
-    let goal = wanted.unwrap_or(USUAL);
+    let goal = wanted.unwrap_or(USUAL.1);
+    // A usual run is always the same.
+    let last = if wanted.is_some() { u64::MAX } else { first + USUAL.0 };
     let total = Mutex::new(Run::default());
     std::thread::scope(|scope| {
         for _ in 0..2 {
             scope.spawn(|| {
-                while total.lock().unwrap().done < goal {
-                    let run = run(seed.fetch_add(1, Ordering::Relaxed), ON_ONE);
+                while wanted.is_none() || total.lock().unwrap().done < goal {
+                    let seed_now = seed.fetch_add(1, Ordering::Relaxed);
+                    if seed_now >= last {
+                        break;
+                    }
+                    let run = run(seed_now, ON_ONE);
                     let mut total = total.lock().unwrap();
                     let before = total.done;
                     total.done += run.done;
@@ -286,7 +296,9 @@ fn random_operators_keep_bodies_sound_and_are_undone_bit_for_bit() {
                     if wanted.is_some() && before / 100_000 != total.done / 100_000 {
                         let bodies = seed.load(Ordering::Relaxed) - first;
                         let Run { done, refused, crossed, .. } = *total;
-                        eprintln!("{done} operators done, {refused} refused, {bodies} bodies, {crossed} crossed");
+                        eprintln!(
+                            "{done} operators done, {refused} refused, {bodies} bodies, {crossed} crossed"
+                        );
                     }
                 }
             });
@@ -299,9 +311,9 @@ fn random_operators_keep_bodies_sound_and_are_undone_bit_for_bit() {
     }
     assert!(done >= goal && refused > done / 20, "{done} operators done, {refused} refused");
     assert!(crossed <= bodies / 20, "{crossed} bodies of {bodies} crossed themselves");
-    // Every operator has been carried out and refused, those apart that cannot be.
+    // Every operator has been carried out.
     let never: Vec<_> = tally.iter().filter(|(_, [done, _])| *done == 0).collect();
-    assert!(never.is_empty() && tally.len() >= 40, "{never:?} of {}", tally.len());
+    assert!(never.is_empty() && tally.len() >= 42, "{never:?} of {}", tally.len());
 }
 
 #[test]

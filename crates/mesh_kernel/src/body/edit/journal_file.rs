@@ -2,10 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::operation::{Operation, Refusal};
 use super::Editor;
-use crate::body::file::{BodyFileError, BodyRecord, check_finite_operation, check_head, check_writable, from_json, write_body};
+use super::operation::{Operation, Refusal};
 use crate::body::Body;
+use crate::body::file::{
+    BodyFileError, BodyRecord, check_finite_operation, check_head, check_writable, from_json, write_body,
+};
 
 /// The word that a journal's file begins with.
 const FORMAT: &str = "toile-journal";
@@ -65,7 +67,8 @@ impl JournalFile {
     /// As [`Body::to_file_bytes`]; numbers in operations that are not finite.
     pub fn to_bytes(&self) -> Result<Vec<u8>, BodyFileError> {
         check_writable(&self.start)?;
-        let mut out = format!("{{\"format\":\"{FORMAT}\",\n\"version\":{JOURNAL_FILE_VERSION},\n\"body\":").into_bytes();
+        let mut out = format!("{{\"format\":\"{FORMAT}\",\n\"version\":{JOURNAL_FILE_VERSION},\n\"body\":")
+            .into_bytes();
         write_body(&self.start, &mut out);
         out.extend_from_slice(b",\n\"operations\":[");
         for (number, operation) in self.operations.iter().enumerate() {

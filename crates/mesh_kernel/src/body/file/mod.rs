@@ -13,8 +13,8 @@ mod write;
 use serde::Deserialize;
 
 use super::Body;
-pub(crate) use error::check_finite_operation;
 pub use error::BodyFileError;
+pub(crate) use error::check_finite_operation;
 pub(crate) use record::BodyRecord;
 pub(crate) use write::write_body;
 
