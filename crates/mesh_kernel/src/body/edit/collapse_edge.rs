@@ -14,6 +14,7 @@
 use glam::{DVec2, DVec3};
 
 use super::Editor;
+use super::carry_attributes::{EndOf, GoneFace, carry_collapse, lines_hold};
 use super::journal::{Attributes, Record};
 use super::link_condition::{Neighbourhood, Obstacle, Place, obstacle};
 use super::loops::{Loops, lowest_of_whole, rebuild};
@@ -210,6 +211,8 @@ pub(super) struct Collapse {
     /// Whether the loops are to be found anew.
     unsettled: bool,
     attributes: Option<Attributes>,
+    /// An edge that stays, by the end that will be the kept node, for attributes of the edge that goes.
+    host: EndOf,
 }
 
 impl Collapse {
@@ -283,6 +286,11 @@ impl Gone {
             tip: corners[LAST[i]],
         }
     }
+
+    fn for_attributes(&self) -> GoneFace {
+        let tip_corner = usize::from(self.corners[0] != self.tip) * (1 + usize::from(self.corners[1] != self.tip));
+        GoneFace { face: self.face, tip_corner, tip: self.tip, side: self.side, into: self.into }
+    }
 }
 
 impl Editor {
@@ -339,25 +347,33 @@ impl Editor {
         if options.guard == Guard::NoTurn {
             self.guard_turns(&members, &moved, position)?;
         }
-        if let Some(m) = members.iter().find(|m| !self.body.surface(m.surface).attribute_nodes.is_empty()) {
-            return Err(CollapseError::CarriesAttributes { surface: m.surface, edge: m.edge });
-        }
         // How far from the kept node towards the removed one.
         let share = options.at.map_or(0.0, |at| if ends[0] == keep.0 { at } else { 1.0 - at });
-        if let &[member] = &members[..] {
+        let bare = |m: &Member| self.body.surface(m.surface).attribute_nodes.is_empty();
+        if let &[member] = &members[..]
+            && bare(&member)
+        {
             let edge = self.collapse_one(member, ringed, options.at, share, position, &moved);
             return Ok(EdgeCollapse { edge, partners: Vec::new() });
         }
-        let done: Result<EdgeCollapse, std::convert::Infallible> = self.transaction(|editor| {
+        let undone = std::mem::take(&mut self.journal.undone);
+        let done = self.transaction(|editor| {
             let edge = editor.collapse_one(members[0], false, options.at, share, position, &moved);
             let partners = members[1..]
                 .iter()
                 .map(|&m| editor.follow(|e| e.collapse_one(m, false, None, share, position, &[])))
                 .collect();
+            for m in &members {
+                if !lines_hold(editor.body.surface(m.surface)) {
+                    return Err(CollapseError::CarriesAttributes { surface: m.surface, edge: m.edge });
+                }
+            }
             Ok(EdgeCollapse { edge, partners })
         });
-        let Ok(collapse) = done;
-        Ok(collapse)
+        if done.is_err() {
+            self.journal.undone = undone;
+        }
+        done
     }
 
     fn shape(&self, surface: SurfaceId, edge: EdgeId, obstacle: Obstacle) -> CollapseError {
@@ -550,6 +566,7 @@ impl Editor {
         let [from, node] = [Layers::of(s, kept), Layers::of(s, removed)];
         let to = Layers { position, backup: between(from.backup, node.backup, share) };
         let old = |&(t, v): &Place| ((t, v), Layers::of(self.body.surface(t), v));
+        let host = host(&faces, &spokes, s, kept, removed, edge.0);
         let collapse = Collapse {
             surface,
             edge,
@@ -567,7 +584,8 @@ impl Editor {
             to,
             loops: touched.then(|| Loops::of(s)),
             unsettled,
-            attributes: None,
+            attributes: (!s.attribute_nodes.is_empty()).then(|| Attributes::of(s)),
+            host,
         };
         if let Some(stars) = &mut self.stars[surface.index()] {
             stars.give_rings(rings);
@@ -593,6 +611,10 @@ impl Editor {
             }
             stars
         });
+        if c.attributes.is_some() {
+            let gone: Vec<GoneFace> = c.faces.iter().flatten().map(Gone::for_attributes).collect();
+            carry_collapse(s, c.edge.0, c.host, &gone);
+        }
         for &f in &c.fan {
             let i = corner(s, f, c.removed);
             s.faces[f as usize][i] = c.kept;
@@ -700,8 +722,7 @@ impl Editor {
             loops.restore(s);
         }
         if let Some(before) = &c.attributes {
-            s.attribute_nodes.clone_from(&before.nodes);
-            s.attribute_edges.clone_from(&before.edges);
+            before.restore(s);
         }
         if let Some(stars) = stars {
             for &[e, far] in &c.spokes {
@@ -721,6 +742,27 @@ impl Editor {
             stars.recount(s, c.kept, &around, held);
         }
     }
+}
+
+/// An edge that stays at the kept node: the side of a face that goes, else an edge of the removed node, else any.
+fn host(
+    faces: &[Option<Gone>; 2],
+    spokes: &[[u32; 2]],
+    s: &Surface,
+    kept: u32,
+    removed: u32,
+    edge: u32,
+) -> EndOf {
+    if s.attribute_nodes.is_empty() {
+        return EndOf { edge, node: kept };
+    }
+    let side = faces.iter().flatten().map(|g| EndOf { edge: g.into, node: kept }).next();
+    let spoke = || spokes.first().map(|&[edge, _]| EndOf { edge, node: removed });
+    let other = || {
+        let at_kept = s.edges.iter().zip(0..).find(|(ends, e)| *e != edge && ends.contains(&kept));
+        at_kept.map(|(_, edge)| EndOf { edge, node: kept })
+    };
+    side.or_else(spoke).or_else(other).unwrap_or(EndOf { edge, node: kept })
 }
 
 /// One of the edges that collapse together.
