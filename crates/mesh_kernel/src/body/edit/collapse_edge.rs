@@ -14,12 +14,13 @@
 use glam::{DVec2, DVec3};
 
 use super::Editor;
+use super::carry_attributes::{EndOf, GoneFace, carry_collapse, lines_hold};
 use super::journal::{Attributes, Record};
 use super::link_condition::{Neighbourhood, Obstacle, Place, obstacle};
 use super::loops::{Loops, lowest_of_whole, rebuild};
 use super::operation::Operation;
 use super::split_edge::{between, release_edge, release_face, release_node};
-use super::stars::{LAST, NEXT, Stars, corner};
+use super::stars::{LAST, NEXT, Ring, Stars, corner};
 use super::swap_edge::Guard;
 use crate::body::radial::collinear;
 use crate::body::{Body, DirectedEdge, EdgeId, FaceId, JointId, NONE, NodeId, Surface, SurfaceId};
@@ -210,6 +211,8 @@ pub(super) struct Collapse {
     /// Whether the loops are to be found anew.
     unsettled: bool,
     attributes: Option<Attributes>,
+    /// An edge that stays, by the end that will be the kept node, for attributes of the edge that goes.
+    host: EndOf,
 }
 
 impl Collapse {
@@ -283,6 +286,11 @@ impl Gone {
             tip: corners[LAST[i]],
         }
     }
+
+    fn for_attributes(&self) -> GoneFace {
+        let tip_corner = usize::from(self.corners[0] != self.tip) * (1 + usize::from(self.corners[1] != self.tip));
+        GoneFace { face: self.face, tip_corner, tip: self.tip, side: self.side, into: self.into }
+    }
 }
 
 impl Editor {
@@ -326,7 +334,9 @@ impl Editor {
         }
         let mut members = vec![Member { surface, edge, kept: keep.0, removed }];
         let mut moved = vec![(surface, keep.0)];
-        match self.plain(surface, edge, keep.0, removed) {
+        let plain = self.plain(surface, edge, keep.0, removed);
+        let ringed = plain.is_some();
+        match plain {
             Some(None) => {}
             Some(Some(obstacle)) => return Err(self.shape(surface, edge, obstacle)),
             None => self.joined_members(&mut members, &mut moved)?,
@@ -337,25 +347,33 @@ impl Editor {
         if options.guard == Guard::NoTurn {
             self.guard_turns(&members, &moved, position)?;
         }
-        if let Some(m) = members.iter().find(|m| !self.body.surface(m.surface).attribute_nodes.is_empty()) {
-            return Err(CollapseError::CarriesAttributes { surface: m.surface, edge: m.edge });
-        }
         // How far from the kept node towards the removed one.
         let share = options.at.map_or(0.0, |at| if ends[0] == keep.0 { at } else { 1.0 - at });
-        if let &[member] = &members[..] {
-            let edge = self.collapse_one(member, options.at, share, position, &moved);
+        let bare = |m: &Member| self.body.surface(m.surface).attribute_nodes.is_empty();
+        if let &[member] = &members[..]
+            && bare(&member)
+        {
+            let edge = self.collapse_one(member, ringed, options.at, share, position, &moved);
             return Ok(EdgeCollapse { edge, partners: Vec::new() });
         }
-        let done: Result<EdgeCollapse, std::convert::Infallible> = self.transaction(|editor| {
-            let edge = editor.collapse_one(members[0], options.at, share, position, &moved);
+        let undone = std::mem::take(&mut self.journal.undone);
+        let done = self.transaction(|editor| {
+            let edge = editor.collapse_one(members[0], false, options.at, share, position, &moved);
             let partners = members[1..]
                 .iter()
-                .map(|&m| editor.follow(|e| e.collapse_one(m, None, share, position, &[])))
+                .map(|&m| editor.follow(|e| e.collapse_one(m, false, None, share, position, &[])))
                 .collect();
+            for m in &members {
+                if !lines_hold(editor.body.surface(m.surface)) {
+                    return Err(CollapseError::CarriesAttributes { surface: m.surface, edge: m.edge });
+                }
+            }
             Ok(EdgeCollapse { edge, partners })
         });
-        let Ok(collapse) = done;
-        Ok(collapse)
+        if done.is_err() {
+            self.journal.undone = undone;
+        }
+        done
     }
 
     fn shape(&self, surface: SurfaceId, edge: EdgeId, obstacle: Obstacle) -> CollapseError {
@@ -385,11 +403,12 @@ impl Editor {
         if faces == [NONE; 2] || stars.is_held(kept) || stars.is_held(removed) {
             return None;
         }
-        let [mut near, mut far] = stars.take_scratch();
-        let answer = (stars.fan(s, removed, edge.0, &mut near) && stars.fan(s, kept, edge.0, &mut far))
-            .then(|| plain_obstacle(surface, s, stars, edge.0, [removed, kept], [&mut near, &mut far]))
+        let mut rings = stars.take_rings();
+        let answer = stars
+            .rings(s, edge.0, [removed, kept], &mut rings)
+            .then(|| plain_obstacle(surface, s, stars, edge.0, removed, &rings))
             .flatten();
-        stars.give_scratch([near, far]);
+        stars.give_rings(rings);
         answer
     }
 
@@ -507,9 +526,11 @@ impl Editor {
         Ok(())
     }
 
+    /// Does one of the collapses. `ringed` where the rings kept with the stars are those of this edge.
     fn collapse_one(
         &mut self,
         m: Member,
+        ringed: bool,
         at: Option<f64>,
         share: f64,
         position: DVec3,
@@ -517,23 +538,36 @@ impl Editor {
     ) -> CollapsedEdge {
         let Member { surface, edge, kept, removed } = m;
         let (s, stars) = self.stars_of(surface);
-        let [mut edges, spare] = stars.take_scratch();
-        stars.edges_at(s, removed, &mut edges);
+        let mut rings = stars.take_rings();
+        let ring = &mut rings[0];
+        if !ringed {
+            stars.edges_at(s, removed, &mut ring.edges);
+            ring.edges.retain(|&e| e != edge.0);
+            let far = |&e: &u32| s.edges[e as usize][0] ^ s.edges[e as usize][1] ^ removed;
+            ring.nodes.clear();
+            ring.nodes.extend(ring.edges.iter().map(far));
+        }
         let s = self.body.surface(surface);
         let edge_faces = s.edge_faces[edge.index()];
         let faces = edge_faces.map(|f| (f != NONE).then(|| Gone::of(s, f, edge.0, removed)));
         let sides = faces.map(|g| g.map_or(NONE, |g| g.side));
-        let spokes = edges.iter().filter(|&&e| e != edge.0 && !sides.contains(&e));
-        let spokes =
-            spokes.map(|&e| [e, s.edges[e as usize][0] ^ s.edges[e as usize][1] ^ removed]).collect();
-        let fan = faces_at(s, &edges, removed).filter(|f| !edge_faces.contains(f)).collect();
-        let touched = edges.iter().any(|&e| s.edge_chain[e as usize] != 0);
+        let mut spokes = Vec::with_capacity(ring.edges.len());
+        spokes.extend(
+            ring.edges.iter().zip(&ring.nodes).filter(|(e, _)| !sides.contains(e)).map(|(&e, &far)| [e, far]),
+        );
+        let mut fan = Vec::with_capacity(ring.edges.len());
+        fan.extend(faces_at(s, &ring.edges, removed).filter(|f| !edge_faces.contains(f)));
+        // Inside a surface, away from joints, no chain passes.
+        let near_chain = !ringed || ring.open;
+        let touched =
+            near_chain && ring.edges.iter().chain([&edge.0]).any(|&e| s.edge_chain[e as usize] != 0);
         let unsettled = touched && unsettles(s, edge, &faces);
         let planar = |v: u32| s.planar.get(v as usize).copied().unwrap_or_default();
         let planar = [planar(removed), planar(kept), planar(kept) * (1.0 - share) + planar(removed) * share];
         let [from, node] = [Layers::of(s, kept), Layers::of(s, removed)];
         let to = Layers { position, backup: between(from.backup, node.backup, share) };
         let old = |&(t, v): &Place| ((t, v), Layers::of(self.body.surface(t), v));
+        let host = host(&faces, &spokes, s, kept, removed, edge.0);
         let collapse = Collapse {
             surface,
             edge,
@@ -551,10 +585,11 @@ impl Editor {
             to,
             loops: touched.then(|| Loops::of(s)),
             unsettled,
-            attributes: None,
+            attributes: (!s.attribute_nodes.is_empty()).then(|| Attributes::of(s)),
+            host,
         };
         if let Some(stars) = &mut self.stars[surface.index()] {
-            stars.give_scratch([edges, spare]);
+            stars.give_rings(rings);
         }
         self.perform(Record::CollapseEdge(Box::new(collapse)));
         CollapsedEdge {
@@ -577,6 +612,10 @@ impl Editor {
             }
             stars
         });
+        if c.attributes.is_some() {
+            let gone: Vec<GoneFace> = c.faces.iter().flatten().map(Gone::for_attributes).collect();
+            carry_collapse(s, c.edge.0, c.host, &gone);
+        }
         for &f in &c.fan {
             let i = corner(s, f, c.removed);
             s.faces[f as usize][i] = c.kept;
@@ -684,8 +723,7 @@ impl Editor {
             loops.restore(s);
         }
         if let Some(before) = &c.attributes {
-            s.attribute_nodes.clone_from(&before.nodes);
-            s.attribute_edges.clone_from(&before.edges);
+            before.restore(s);
         }
         if let Some(stars) = stars {
             for &[e, far] in &c.spokes {
@@ -705,6 +743,27 @@ impl Editor {
             stars.recount(s, c.kept, &around, held);
         }
     }
+}
+
+/// An edge that stays at the kept node: the side of a face that goes, else an edge of the removed node, else any.
+fn host(
+    faces: &[Option<Gone>; 2],
+    spokes: &[[u32; 2]],
+    s: &Surface,
+    kept: u32,
+    removed: u32,
+    edge: u32,
+) -> EndOf {
+    if s.attribute_nodes.is_empty() {
+        return EndOf { edge, node: kept };
+    }
+    let side = faces.iter().flatten().map(|g| EndOf { edge: g.into, node: kept }).next();
+    let spoke = || spokes.first().map(|&[edge, _]| EndOf { edge, node: removed });
+    let other = || {
+        let at_kept = s.edges.iter().zip(0..).find(|(ends, e)| *e != edge && ends.contains(&kept));
+        at_kept.map(|(_, edge)| EndOf { edge, node: kept })
+    };
+    side.or_else(spoke).or_else(other).unwrap_or(EndOf { edge, node: kept })
 }
 
 /// One of the edges that collapse together.
@@ -753,24 +812,19 @@ fn turned(s: &Surface, face: u32, i: usize, to: DVec3) -> bool {
         || (!clear && collinear(p[0], p[1], p[2]))
 }
 
-/// The condition where both nodes are ordinary, given their edges. `None` where joints are near both.
+/// The condition where both nodes are ordinary, given their rings. `None` where joints are near both.
 fn plain_obstacle(
     surface: SurfaceId,
     s: &Surface,
     stars: &Stars,
     edge: u32,
-    [removed, kept]: [u32; 2],
-    [near, far]: [&mut Vec<u32>; 2],
+    removed: u32,
+    rings: &[Ring; 2],
 ) -> Option<Option<Obstacle>> {
-    let open = |edges: &[u32]| s.edge_faces[edges[0] as usize].contains(&NONE);
-    let opens = [open(near), open(far)];
+    let [near, far] = [&rings[0].nodes, &rings[1].nodes];
+    let opens = [rings[0].open, rings[1].open];
     let faces = s.edge_faces[edge as usize];
     let inside = !faces.contains(&NONE);
-    let ends = |list: &mut Vec<u32>, node: u32| {
-        list.iter_mut().for_each(|e| *e = s.edges[*e as usize][0] ^ s.edges[*e as usize][1] ^ node);
-    };
-    ends(near, removed);
-    ends(far, kept);
     if near.iter().any(|&v| stars.is_held(v)) && far.iter().any(|&v| stars.is_held(v)) {
         return None;
     }
@@ -790,8 +844,8 @@ fn plain_obstacle(
     }
     if let [Some(l), Some(r)] = gone
         && opens == [false; 2]
-        && near.len() == 3
-        && far.len() == 3
+        && near.len() == 2
+        && far.len() == 2
     {
         let other = |g: &Gone| s.edge_faces[g.into as usize][1 - g.slot];
         let faces = [(surface, FaceId(l.outer)), (surface, FaceId(other(&r)))];

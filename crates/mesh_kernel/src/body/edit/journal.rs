@@ -15,7 +15,7 @@ use crate::body::{EdgeId, Surface, SurfaceId};
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Record {
     /// The edge turned by a quarter. Inverse: turned back.
-    SwapEdge { surface: SurfaceId, edge: EdgeId, clockwise: bool },
+    SwapEdge { surface: SurfaceId, edge: EdgeId, attributes: Option<Box<Attributes>> },
     /// One edge split (its partners on a joint have records of their own). Inverse: joined.
     SplitEdge {
         surface: SurfaceId,
@@ -74,6 +74,17 @@ pub(super) struct SplitMore {
 pub(super) struct Attributes {
     pub(super) nodes: Vec<AttributeNode>,
     pub(super) edges: Vec<AttributeEdge>,
+}
+
+impl Attributes {
+    pub(super) fn of(s: &Surface) -> Self {
+        Self { nodes: s.attribute_nodes.clone(), edges: s.attribute_edges.clone() }
+    }
+
+    pub(super) fn restore(&self, s: &mut Surface) {
+        s.attribute_nodes.clone_from(&self.nodes);
+        s.attribute_edges.clone_from(&self.edges);
+    }
 }
 
 /// Operators in order, grouped to transactions.

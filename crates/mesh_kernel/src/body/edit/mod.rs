@@ -4,6 +4,7 @@
 //! (typed refusals, nothing changed), then acts and is logged. [`Editor::undo`] gives the body back bit for bit, ids
 //! included; [`Editor::transaction`] rolls back whole on an error.
 
+mod carry_attributes;
 mod collapse_edge;
 mod delta;
 pub mod euler;
@@ -171,7 +172,9 @@ impl Editor {
 
     fn act(&mut self, record: &mut Record) {
         match record {
-            Record::SwapEdge { surface, edge, clockwise } => self.do_swap(*surface, *edge, *clockwise),
+            Record::SwapEdge { surface, edge, attributes } => {
+                self.do_swap(*surface, *edge, false, attributes.is_some());
+            }
             Record::SplitEdge { surface, edge, at, more, .. } => {
                 self.do_split(*surface, *edge, *at, more.as_deref());
             }
@@ -189,7 +192,12 @@ impl Editor {
 
     fn take_one_back(&mut self, record: &mut Record) {
         match record {
-            Record::SwapEdge { surface, edge, clockwise } => self.do_swap(*surface, *edge, !*clockwise),
+            Record::SwapEdge { surface, edge, attributes } => {
+                self.do_swap(*surface, *edge, true, false);
+                if let Some(before) = attributes {
+                    before.restore(&mut self.body.surfaces[surface.index()]);
+                }
+            }
             Record::SplitEdge { surface, edge, second, reused, more, .. } => {
                 self.do_join(*surface, *edge, *second, *reused, more.as_deref());
             }

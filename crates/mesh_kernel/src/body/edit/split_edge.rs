@@ -112,8 +112,7 @@ impl Editor {
         let faces = s.edge_faces[edge.index()].iter().filter(|f| **f != NONE).count();
         let reused = |slots: &Slots, n: usize| slots.free().len().min(n) as u8;
         let reused = [reused(&slots.nodes, 1), reused(&slots.edges, 1 + faces), reused(&slots.faces, faces)];
-        let attributes = (!s.attribute_nodes.is_empty())
-            .then(|| Attributes { nodes: s.attribute_nodes.clone(), edges: s.attribute_edges.clone() });
+        let attributes = (!s.attribute_nodes.is_empty()).then(|| Attributes::of(s));
         let loops = split_unsettles(s, edge, second.0).then(|| Loops::of(s));
         let plain = position.is_none() && attributes.is_none() && loops.is_none();
         let more = (!plain).then(|| Box::new(SplitMore { position, attributes, loops }));
@@ -244,8 +243,7 @@ impl Editor {
             loops.restore(s);
         }
         if let Some(before) = more.and_then(|m| m.attributes.as_ref()) {
-            s.attribute_nodes.clone_from(&before.nodes);
-            s.attribute_edges.clone_from(&before.edges);
+            before.restore(s);
         }
     }
 }

@@ -61,7 +61,7 @@ pub(super) struct Stars {
     singular: Option<BTreeMap<u32, Vec<u32>>>,
     hubs: Vec<Hub>,
     /// Kept, so that no list is allocated for an operator.
-    scratch: [Vec<u32>; 2],
+    scratch: [Ring; 2],
 }
 
 /// The other face of an edge.
@@ -107,7 +107,62 @@ impl Walk {
     }
 }
 
+/// The edges of an ordinary node other than one that is given, in no order, and what they lead to.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Ring {
+    pub(super) edges: Vec<u32>,
+    pub(super) nodes: Vec<u32>,
+    /// Whether the fan ends at boundary edges.
+    pub(super) open: bool,
+}
+
 impl Stars {
+    /// The rings of both ends of an edge; `false`, and nothing that means anything, where one of these is singular. Four
+    /// walks at once, both ways round both nodes: none waits for another's memory. O(edges at both).
+    pub(super) fn rings(&self, s: &Surface, edge: u32, ends: [u32; 2], rings: &mut [Ring; 2]) -> bool {
+        let [first, _] = s.edges[edge as usize];
+        let faces = s.edge_faces[edge as usize];
+        let mut rest = ends.map(|v| self.degree(v) - 1);
+        // Ahead and behind, round each end.
+        let mut walks = ends.map(|v| {
+            let [ahead, behind] = if v == first { faces } else { [faces[1], faces[0]] };
+            [Walk { face: ahead, edge }, Walk { face: behind, edge }]
+        });
+        for ring in rings.iter_mut() {
+            ring.edges.clear();
+            ring.nodes.clear();
+        }
+        loop {
+            let mut moved = false;
+            for end in 0..2 {
+                for way in 0..2 {
+                    let Walk { face, .. } = walks[end][way];
+                    if rest[end] == 0 || face == NONE {
+                        continue;
+                    }
+                    let i = corner(s, face, ends[end]);
+                    let step = if way == 0 { Walk::ahead(s, face, i) } else { Walk::behind(s, face, i) };
+                    if step.edge == walks[end][1 - way].edge {
+                        // Round, but there are more edges than these.
+                        return false;
+                    }
+                    walks[end][way] = step;
+                    rings[end].edges.push(step.edge);
+                    rings[end].nodes.push(s.faces[face as usize][if way == 0 { LAST[i] } else { NEXT[i] }]);
+                    rest[end] -= 1;
+                    moved = true;
+                }
+            }
+            if !moved {
+                break;
+            }
+        }
+        for end in 0..2 {
+            rings[end].open = walks[end].iter().any(|w| w.face == NONE);
+        }
+        rest == [0; 2] && faces != [NONE; 2]
+    }
+
     /// O(nodes + edges).
     pub(super) fn new(s: &Surface) -> Self {
         let mut nodes = vec![ALONE; s.positions.len()];
@@ -373,14 +428,13 @@ impl Stars {
         self.singular.is_some()
     }
 
-    /// Two empty lists, to be given back.
-    pub(super) fn take_scratch(&mut self) -> [Vec<u32>; 2] {
+    /// Two rings with anything in them, to be given back.
+    pub(super) fn take_rings(&mut self) -> [Ring; 2] {
         std::mem::take(&mut self.scratch)
     }
 
-    pub(super) fn give_scratch(&mut self, mut scratch: [Vec<u32>; 2]) {
-        scratch.iter_mut().for_each(Vec::clear);
-        self.scratch = scratch;
+    pub(super) fn give_rings(&mut self, rings: [Ring; 2]) {
+        self.scratch = rings;
     }
 
     /// A node that is no more, or no more there.

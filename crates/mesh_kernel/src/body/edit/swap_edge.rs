@@ -12,7 +12,8 @@
 //! with a face (MEF).
 
 use super::Editor;
-use super::journal::Record;
+use super::carry_attributes::SwapCarry;
+use super::journal::{Attributes, Record};
 use super::link_condition::Neighbourhood;
 use super::stars::{LAST, NEXT, Stars};
 use crate::body::{EdgeId, JointId, NONE, NodeId, Surface, SurfaceId};
@@ -58,16 +59,6 @@ pub enum SwapError {
         /// Ends of the other diagonal.
         nodes: [NodeId; 2],
     },
-    /// Attributes lie on the edge or its faces and would move.
-    #[error(
-        "edge {edge} of surface {surface} or a face of it carries attributes; triangulate them into edges first"
-    )]
-    CarriesAttributes {
-        /// Surface.
-        surface: SurfaceId,
-        /// Edge.
-        edge: EdgeId,
-    },
     /// A new face would be turned over or degenerate.
     #[error("swapping edge {edge} of surface {surface} would turn a face over or flatten it")]
     Turns {
@@ -97,7 +88,11 @@ impl Editor {
     /// See [`SwapError`]; nothing is changed then. O(1).
     pub fn swap_edge(&mut self, surface: SurfaceId, edge: EdgeId, guard: Guard) -> Result<(), SwapError> {
         self.can_swap(surface, edge, guard)?;
-        self.perform(Record::SwapEdge { surface, edge, clockwise: false });
+        let s = self.body.surface(surface);
+        let carries = !s.attribute_nodes.is_empty()
+            && s.carries_attributes(&[edge.0], &s.edge_faces[edge.index()]);
+        let attributes = carries.then(|| Box::new(Attributes::of(s)));
+        self.perform(Record::SwapEdge { surface, edge, attributes });
         Ok(())
     }
 
@@ -114,9 +109,6 @@ impl Editor {
         if let Some(joint) = s.edge_chain(edge).and_then(|c| s.chain(c).joint()) {
             let sheets = self.body.joint(joint).uses().iter().map(|u| u.surface).collect();
             return Err(SwapError::OnJoint { surface, edge, joint, sheets });
-        }
-        if !s.attribute_nodes.is_empty() && s.carries_attributes(&[edge.0], &[left, right]) {
-            return Err(SwapError::CarriesAttributes { surface, edge });
         }
         let diamond = Diamond::at(s, edge.0);
         let [c, d] = diamond.tips(s);
@@ -136,8 +128,9 @@ impl Editor {
     }
 
     /// Turns the edge by a quarter; once each way is the identity, bit for bit.
-    pub(super) fn do_swap(&mut self, surface: SurfaceId, edge: EdgeId, clockwise: bool) {
+    pub(super) fn do_swap(&mut self, surface: SurfaceId, edge: EdgeId, clockwise: bool, carry: bool) {
         let s = &mut self.body.surfaces[surface.index()];
+        let carry = if carry { SwapCarry::of(s, edge) } else { None };
         let e = edge.0;
         let Diamond { faces: [left, right], at: [i, j] } = Diamond::at(s, e);
         let (ln, rn) = (s.faces[left as usize], s.faces[right as usize]);
@@ -173,6 +166,9 @@ impl Editor {
             stars.lose(b, e, a, bc);
             stars.gain(c, e, d);
             stars.gain(d, e, c);
+        }
+        if let Some(carry) = carry {
+            carry.put(s);
         }
     }
 }
