@@ -13,7 +13,7 @@ use mesh_kernel::glam::{DVec2, DVec3};
 /// Any finite number, all exponents alike.
 fn any_float(random: &mut Random) -> f64 {
     loop {
-        let value = f64::from_bits(random.next() << 33 | random.next() << 2 | random.next() % 4);
+        let value = f64::from_bits(random.next() << 33 | random.next() << 2 | (random.next() % 4));
         if value.is_finite() {
             return value;
         }
