@@ -50,7 +50,7 @@ fn random_bodies_come_back_bit_for_bit() {
                 let flat = |_| DVec2::new(any_float(&mut random), any_float(&mut random));
                 let planar = (0..s.positions().len()).map(flat).collect();
                 // Every other body has been flattened.
-                assert!(seed % 2 == 0 || s.set_planar(planar));
+                assert!(seed.is_multiple_of(2) || s.set_planar(planar));
             }
             let bytes = body.to_file_bytes().unwrap();
             let back = Body::from_file_bytes(&bytes).unwrap();

@@ -1,7 +1,6 @@
 //! Journal files, read and carried out: operators on whatever a file asks for.
 
 // The generators of random bodies and operators are the kernel's own tests'.
-#[allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #[path = "../../../../crates/mesh_kernel/tests/body_support/mod.rs"]
 mod body_support;
 
