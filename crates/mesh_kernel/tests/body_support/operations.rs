@@ -480,7 +480,7 @@ impl Source {
                 let face = pick(&mut self.random, &hosts).unwrap_or_else(|| self.face(s));
                 Operation::TriangulateFace { surface, face }
             }
-            4..=6 if !carrying => {
+            4..=6 => {
                 let edge = self.edge(s);
                 let ends = s.edges().get(edge.index()).copied().unwrap_or([0, 1]);
                 let at = [None, Some(0.5), Some(self.random.unit())][self.random.below(3)];
