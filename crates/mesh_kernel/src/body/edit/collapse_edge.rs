@@ -288,7 +288,8 @@ impl Gone {
     }
 
     fn for_attributes(&self) -> GoneFace {
-        let tip_corner = usize::from(self.corners[0] != self.tip) * (1 + usize::from(self.corners[1] != self.tip));
+        let tip_corner =
+            usize::from(self.corners[0] != self.tip) * (1 + usize::from(self.corners[1] != self.tip));
         GoneFace { face: self.face, tip_corner, tip: self.tip, side: self.side, into: self.into }
     }
 }

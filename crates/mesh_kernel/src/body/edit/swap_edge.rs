@@ -89,8 +89,8 @@ impl Editor {
     pub fn swap_edge(&mut self, surface: SurfaceId, edge: EdgeId, guard: Guard) -> Result<(), SwapError> {
         self.can_swap(surface, edge, guard)?;
         let s = self.body.surface(surface);
-        let carries = !s.attribute_nodes.is_empty()
-            && s.carries_attributes(&[edge.0], &s.edge_faces[edge.index()]);
+        let carries =
+            !s.attribute_nodes.is_empty() && s.carries_attributes(&[edge.0], &s.edge_faces[edge.index()]);
         let attributes = carries.then(|| Box::new(Attributes::of(s)));
         self.perform(Record::SwapEdge { surface, edge, attributes });
         Ok(())
