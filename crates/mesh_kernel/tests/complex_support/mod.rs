@@ -3,6 +3,8 @@
 // A test that cannot go on fails; not every test uses everything.
 #![allow(clippy::unwrap_used, dead_code, unreachable_pub, missing_docs)]
 
+pub mod random_operation;
+
 use mesh_kernel::body::Counts;
 use mesh_kernel::complex::{
     CheckOptions, Complex, Delta, EdgeClass, EdgeId, Editor, FaceId, NewFace, Operation, Reason, Record,
