@@ -141,7 +141,7 @@ fn a_broken_rule_is_traced_to_the_operators_that_break_it() {
 fn a_fault_planted_among_a_thousand_operators_is_found() {
     let editor = edited(11, 1000);
     let journal = JournalFile::of(&editor);
-    // The fault shows where a surface of this name exists while a face was split: two culprits far apart.
+    // The fault shows where surfaces of two names exist: two culprits far apart. Nobody else gives names.
     let mut operations = journal.operations.clone();
     // No other operator gives names.
     operations.retain(|o| !matches!(o, Operation::RenameSurface { .. } | Operation::Group(_)));
