@@ -604,15 +604,12 @@ impl Editor {
     }
 
     pub(super) fn do_collapse(&mut self, c: &Collapse) {
-        let stars = self.stars[c.surface.index()].as_mut();
+        let mut stars = self.stars[c.surface.index()].as_mut();
         let s = &mut self.body.surfaces[c.surface.index()];
         let mut around = Vec::new();
-        let stars = stars.map(|stars| {
-            if stars.knows_singular() {
-                stars.edges_at(s, c.kept, &mut around);
-            }
-            stars
-        });
+        if let Some(stars) = stars.as_deref_mut().filter(|stars| stars.knows_singular()) {
+            stars.edges_at(s, c.kept, &mut around);
+        }
         if c.attributes.is_some() {
             let gone: Vec<GoneFace> = c.faces.iter().flatten().map(Gone::for_attributes).collect();
             carry_collapse(s, c.edge.0, c.host, &gone);

@@ -482,3 +482,45 @@ impl super::Editor {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use crate::body::edit::{CollapseOptions, Editor, Guard};
+    use crate::body::{Body, EdgeId, NodeId, SurfaceId, SurfaceSpec};
+
+    #[test]
+    fn stars_stay_right_while_a_surface_is_edited() {
+        let n = 7u32;
+        let positions = (0..n * n).map(|k| DVec3::new(f64::from(k % n), f64::from(k / n), 0.0)).collect();
+        let cell = |k: u32| [[k, k + 1, k + n + 1], [k, k + n + 1, k + n]];
+        let faces = (0..n * (n - 1)).filter(|k| k % n < n - 1).flat_map(cell).collect();
+        let body = Body::build(&[SurfaceSpec { name: "grid".into(), positions, faces }], &[]).unwrap();
+        let s = SurfaceId(0);
+        let mut editor = Editor::new(body);
+        // A wire and a node alone, so that some stars are no fans.
+        editor.make_vertex_edge(s, NodeId(20), DVec3::Z).unwrap();
+        editor.make_vertex_complex(s, DVec3::Z * 2.0).unwrap();
+        let mut state = 7u64;
+        let mut random = |below: usize| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) as usize % below
+        };
+        for _ in 0..2000 {
+            let edge = EdgeId(random(editor.body().surface(s).edges().len()) as u32);
+            match random(4) {
+                0 => drop(editor.split_edge(s, edge, 0.5)),
+                1 => drop(editor.swap_edge(s, edge, Guard::None)),
+                2 => drop(editor.undo()),
+                _ => {
+                    let kept = NodeId(editor.body().surface(s).edges()[edge.index()][random(2)]);
+                    drop(editor.collapse_edge(s, edge, kept, &CollapseOptions::default()));
+                }
+            }
+            if let Some(stars) = &mut editor.stars[0] {
+                stars.assert_right(&editor.body.surfaces[0]);
+            }
+        }
+    }
+}
