@@ -453,10 +453,10 @@ fn run(kind: u8, seed: u64, steps: usize, guard: Guard, attributes: bool) {
     if attributes {
         add_attributes(&mut body, &mut random);
     }
-    if seed % 2 == 0 {
+    if seed.is_multiple_of(2) {
         add_wires(&mut body, &mut random);
     }
-    if seed % 5 == 0 {
+    if seed.is_multiple_of(5) {
         body.surface_ids().for_each(|s| body.surface_mut(s).store_backup());
     }
     if random.below(2) == 0 && body.face_count() < 100 {
