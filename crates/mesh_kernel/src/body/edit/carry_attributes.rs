@@ -102,9 +102,23 @@ impl SwapCarry {
                 best = (distance, f, areal);
             }
         }
-        AttributeNode::InFace { face: FaceId(best.1), areal: best.2 }
+        let (_, face, areal) = best;
+        // On a side it is the side that carries it, so that cuts through the side's ends find it there.
+        let Some(i) = (0..3).find(|&i| areal[i] <= ON_SIDE) else {
+            return AttributeNode::InFace { face: FaceId(face), areal };
+        };
+        let (from, to) = ((i + 1) % 3, (i + 2) % 3);
+        let along = areal[to] / (areal[from] + areal[to]);
+        let along = if along <= ON_SIDE { 0.0 } else { along };
+        let along = if along >= 1.0 - ON_SIDE { 1.0 } else { along };
+        let side = s.face_edges[face as usize][from];
+        let forward = s.edges[side as usize][0] == s.faces[face as usize][from];
+        AttributeNode::OnEdge { edge: EdgeId(side), u: if forward { along } else { 1.0 - along } }
     }
 }
+
+/// A point of a face with a smaller share of a corner lies on the side opposite.
+const ON_SIDE: f64 = 1e-9;
 
 /// Node `v` as an end of edge `e`.
 fn end_of(s: &Surface, e: u32, v: u32) -> AttributeNode {
