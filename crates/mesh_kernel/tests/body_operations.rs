@@ -107,7 +107,8 @@ fn may_bend(operation: &Operation) -> bool {
         | Operation::MakeFace { .. }
         | Operation::MakeFaceKillChole { .. }
         | Operation::MakeFaceMakeCavity { .. }
-        | Operation::MakeJoint { .. } => true,
+        | Operation::MakeJoint { .. }
+        | Operation::KillJoint { .. } => true,
         _ => false,
     }
 }
@@ -118,7 +119,26 @@ const GEOMETRIC: [&str; 4] = ["degenerate_face", "edge_without_length", "radial_
 /// contradict each other then, and the regions that they tell are none.
 fn crosses_itself(body: &Body) -> bool {
     let geometric = body.check().iter().any(|d| GEOMETRIC.contains(&d.code()));
-    geometric || !Crossings::new(&body.to_tri_mesh()).self_crossing().is_empty()
+    let mesh = body.to_tri_mesh();
+    // Sheets that a joint no longer holds lie in one place still, or pass through each other there.
+    let mut places: Vec<_> = mesh.positions.iter().map(|p| p.to_array().map(f64::to_bits)).collect();
+    places.sort_unstable();
+    let touches = places.windows(2).any(|w| w[0] == w[1]);
+    // The same for edges whose ends other joints still hold.
+    let weld = body.weld();
+    let mut edges = Vec::new();
+    for (id, s) in body.surfaces() {
+        for e in s.live_edges() {
+            if body.partners(id, e).iter().all(|(t, d)| (id, e) < (*t, d.edge())) {
+                let mut ends = s.edges()[e.index()].map(|v| weld.node(id, v));
+                ends.sort_unstable();
+                edges.push(ends);
+            }
+        }
+    }
+    edges.sort_unstable();
+    let touches = touches || edges.windows(2).any(|w| w[0] == w[1]);
+    geometric || touches || !Crossings::new(&mesh).self_crossing().is_empty()
 }
 
 /// A body under operations, each of which is checked.
