@@ -64,6 +64,14 @@ impl<E: std::error::Error> From<E> for Failure {
             }
             source = cause.source();
         }
+        // A message may quote a name from a file, and names may be of any length.
+        if let Some((end, _)) = what.char_indices().nth(LONGEST) {
+            what.truncate(end);
+            what.push('…');
+        }
         Self::new(what)
     }
 }
+
+/// Most characters of a message.
+const LONGEST: usize = 1500;

@@ -60,6 +60,8 @@ pub(crate) enum Format {
     Json,
     Png,
     Toile,
+    /// garment.body.json, for programs: written only when named
+    Body,
 }
 
 /// Rebuild a template on a body: features, surfaces, patterns, files.
@@ -82,7 +84,7 @@ pub(crate) struct Regenerate {
 /// How a garment is built and what is written of it.
 #[derive(Debug, Args)]
 pub(crate) struct Build {
-    /// What to write, separated by commas. Default: everything.
+    /// What to write, separated by commas. Default: everything but body.
     #[arg(long, value_name = "LIST", value_enum, value_delimiter = ',')]
     pub(crate) formats: Vec<Format>,
     /// How often every triangle of the template is split in four. Default: what the template says.

@@ -65,7 +65,7 @@ pub struct DocumentPlacement {
 pub enum DocumentError {
     /// No JSON of this shape.
     #[error("this is no design file: {0}")]
-    Format(#[from] serde_json::Error),
+    Format(String),
     /// Written by a newer program.
     #[error("the design has format version {found}; this program reads {DOCUMENT_VERSION}")]
     Version {
@@ -97,6 +97,19 @@ pub enum DocumentError {
         /// The number in the file.
         levels: u8,
     },
+}
+
+impl From<serde_json::Error> for DocumentError {
+    fn from(error: serde_json::Error) -> Self {
+        // What it quotes from the file may be of any length.
+        let text = error.to_string();
+        match text.char_indices().nth(300) {
+            Some((end, _)) => {
+                Self::Format(format!("{}… at line {}, column {}", &text[..end], error.line(), error.column()))
+            }
+            None => Self::Format(text),
+        }
+    }
 }
 
 impl Document {

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use mesh_kernel::TriMesh;
+use mesh_kernel::body::BodyFileError;
 use mesh_kernel::files::{Format, WriteOptions, to_bytes};
 use mesh_kernel::glam::DVec3;
 use pattern::{
@@ -66,11 +67,13 @@ pub enum Artifact {
     Png,
     /// `design.toile`
     Toile,
+    /// `garment.body.json`: the kernel's native file, with joints, attributes and numbers; in millimetres, y up.
+    Body,
 }
 
 impl Artifact {
-    /// All of them.
-    pub const ALL: [Self; 8] =
+    /// What is written where nothing else is said: all that people use; a body is for programs.
+    pub const DEFAULT: [Self; 8] =
         [Self::Obj, Self::Glb, Self::Dxf, Self::Svg, Self::Pdf, Self::Json, Self::Png, Self::Toile];
 }
 
@@ -89,6 +92,9 @@ pub enum RegenerateError {
     /// A picture.
     #[error("a picture could not be drawn: {0}")]
     Picture(#[from] RenderError),
+    /// The garment as a native body.
+    #[error(transparent)]
+    BodyFile(#[from] BodyFileError),
     /// A file.
     #[error(transparent)]
     Output(#[from] OutputError),
@@ -246,6 +252,7 @@ impl Regenerated {
                 named.map(|(name, image)| OutputFile { name: name.into(), bytes: image.to_png() }).into()
             }
             Artifact::Toile => one("design.toile", self.document.to_bytes()),
+            Artifact::Body => one("garment.body.json", self.garment.body.to_file_bytes()?),
         })
     }
 

@@ -8,19 +8,21 @@
 
 mod body_support;
 
+use std::collections::BTreeMap;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use body_support::operations::Source;
 use body_support::{add_attributes, add_wires, random_body};
-use mesh_kernel::body::edit::{Editor, Operation, Outcome, Refusal};
+use mesh_kernel::body::edit::{Editor, Operation, Outcome, Refusal, minimise};
 use mesh_kernel::body::{Body, Counts};
 use mesh_kernel::query::Crossings;
 
 /// Operators that run on one body.
 const ON_ONE: usize = 150;
 
-/// Operators of a usual run.
-const USUAL: u64 = 12_000;
+/// Bodies of a usual run, and operators that must have been carried out on them.
+const USUAL: (u64, u64) = (400, 20_000);
 
 fn start(seed: u64) -> Body {
     let mut source = Source::new(seed);
@@ -119,82 +121,147 @@ fn crosses_itself(body: &Body) -> bool {
     geometric || !Crossings::new(&body.to_tri_mesh()).self_crossing().is_empty()
 }
 
+/// A body under operations, each of which is checked.
+struct Checked {
+    start: Body,
+    editor: Editor,
+    /// Whether the geometry may be wrong.
+    bent: bool,
+    counts: Counts,
+    /// By operator: carried out, refused.
+    tally: BTreeMap<String, [u64; 2]>,
+    /// The body crosses itself, and its counts are no longer those of a body in space.
+    crossed: bool,
+}
+
+impl Checked {
+    fn new(start: Body) -> Self {
+        let editor = Editor::new(start.clone());
+        let (bent, counts) = (!start.check().is_empty(), start.counts());
+        Self { start, editor, bent, counts, tally: BTreeMap::new(), crossed: false }
+    }
+
+    /// Tries an operation; what it made, or what is wrong.
+    fn step(&mut self, operation: &Operation) -> Result<Option<Outcome>, String> {
+        let before = self.editor.body().clone();
+        let steps = self.editor.undo_len();
+        let name = format!("{operation:?}");
+        let name = name.split([' ', '(']).next().unwrap().to_owned();
+        let tally = self.tally.entry(name).or_default();
+        let outcome = match self.editor.apply(operation) {
+            Ok(outcome) => outcome,
+            Err(error) => {
+                tally[1] += 1;
+                if self.editor.body() != &before || self.editor.undo_len() != steps {
+                    return Err(format!("refused ({error}) but something is changed"));
+                }
+                return Ok(None);
+            }
+        };
+        tally[0] += 1;
+        self.bent |= may_bend(operation);
+        let now = self.editor.body().counts();
+        let found = difference(now, self.counts);
+        self.counts = now;
+        let miscounted = declared(operation, &outcome, &before).is_some_and(|d| d != found);
+        let defects = self.editor.body().check();
+        let misjudged = miscounted || defects.iter().any(|d| d.code() == "identity");
+        if self.bent && misjudged && crosses_itself(self.editor.body()) {
+            self.crossed = true;
+            return Ok(Some(outcome));
+        }
+        let wrong: Vec<_> =
+            defects.iter().filter(|d| !(self.bent && GEOMETRIC.contains(&d.code()))).collect();
+        if !wrong.is_empty() {
+            return Err(format!("{wrong:?}"));
+        }
+        if miscounted {
+            return Err(format!("the counts differ by {found}"));
+        }
+        Ok(Some(outcome))
+    }
+
+    /// Everything taken back, done again, saved, read and replayed.
+    fn finish(mut self) -> Result<(), String> {
+        let rule = |holds: bool, what: &str| if holds { Ok(()) } else { Err(what.to_owned()) };
+        let end = self.editor.body().clone();
+        let steps = self.editor.undo_len();
+        let operations = self.editor.operations();
+        while self.editor.undo() {}
+        rule(self.editor.body() == &self.start, "undone is not the start")?;
+        rule(self.editor.redo_len() == steps, "not all can be done again")?;
+        while self.editor.redo() {}
+        rule(self.editor.body() == &end, "done again is not the end")?;
+        let text = serde_json::to_string(&operations).unwrap();
+        let read: Vec<Operation> = serde_json::from_str(&text).unwrap();
+        rule(read == operations, "read is not written")?;
+        let mut replay = Editor::new(self.start);
+        for operation in &read {
+            replay.apply(operation).map_err(|e| format!("replay: {e}"))?;
+        }
+        rule(replay.body() == &end, "replayed is not the end")
+    }
+}
+
+/// What is wrong with a sequence of operations.
+fn fault(seed: u64, operations: &[Operation]) -> Option<String> {
+    let mut checked = Checked::new(start(seed));
+    for operation in operations {
+        if let Err(what) = checked.step(operation) {
+            return Some(what);
+        }
+        if checked.crossed {
+            break;
+        }
+    }
+    checked.finish().err()
+}
+
+fn fail(seed: u64, what: &str, operations: &[Operation]) -> ! {
+    let few = minimise(operations, |o| fault(seed, o).is_some()).unwrap_or_else(|| operations.to_vec());
+    let now = fault(seed, &few).unwrap_or_default();
+    panic!(
+        "seed {seed}: {what}\n{} operations do it ({now}):\n{}",
+        few.len(),
+        serde_json::to_string(&few).unwrap()
+    );
+}
+
 /// What came of a run.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 struct Run {
     done: u64,
     refused: u64,
     /// 1 where the run ended early, on a body that crosses itself.
     crossed: u64,
+    tally: BTreeMap<String, [u64; 2]>,
 }
 
 /// Runs operations on the body of a seed.
 fn run(seed: u64, operators: usize) -> Run {
-    let body = start(seed);
-    let fail = |what: &str, editor: &Editor, last: &Operation| -> ! {
-        let done = serde_json::to_string(&editor.operations()).unwrap();
-        panic!("seed {seed}: {what}\nlast: {}\nall: {done}", serde_json::to_string(last).unwrap());
-    };
     let mut source = Source::new(seed ^ 0x0b5e_55ed);
-    let mut editor = Editor::new(body.clone());
-    let mut bent = !body.check().is_empty();
-    let mut counts = body.counts();
-    let mut run = Run::default();
+    let mut checked = Checked::new(start(seed));
+    let mut tried = Vec::with_capacity(operators);
     for _ in 0..operators {
-        let operation = source.operation(editor.body());
-        let before = editor.body().clone();
-        let steps = editor.undo_len();
-        match editor.apply(&operation) {
-            Err(error) => {
-                run.refused += 1;
-                if editor.body() != &before || editor.undo_len() != steps {
-                    fail(&format!("refused ({error}) but something is changed"), &editor, &operation);
-                }
-                assert!(!error.to_string().is_empty());
-            }
-            Ok(outcome) => {
-                run.done += 1;
-                if let Outcome::JointKilled(spec) = &outcome {
-                    source.killed.push(spec.clone());
-                }
-                bent |= may_bend(&operation);
-                let defects = editor.body().check();
-                let wrong: Vec<_> =
-                    defects.iter().filter(|d| !(bent && GEOMETRIC.contains(&d.code()))).collect();
-                let now = editor.body().counts();
-                let found = difference(now, counts);
-                let miscounted = declared(&operation, &outcome, &before).is_some_and(|d| d != found);
-                let misjudged = miscounted || wrong.iter().any(|d| d.code() == "identity");
-                if bent && misjudged && crosses_itself(editor.body()) {
-                    run.crossed = 1;
-                    break;
-                }
-                if !wrong.is_empty() {
-                    fail(&format!("{wrong:?}"), &editor, &operation);
-                }
-                if miscounted {
-                    fail(&format!("the counts differ by {found}"), &editor, &operation);
-                }
-                counts = now;
-            }
+        tried.push(source.operation(checked.editor.body()));
+        match checked.step(&tried[tried.len() - 1]) {
+            Err(what) => fail(seed, &what, &tried),
+            Ok(Some(Outcome::JointKilled(spec))) => source.killed.push(spec),
+            Ok(_) => {}
+        }
+        if checked.crossed {
+            break;
         }
     }
-    let end = editor.body().clone();
-    let steps = editor.undo_len();
-    let operations = editor.operations();
-    while editor.undo() {}
-    assert!(editor.body() == &body, "seed {seed}: undone is not the start");
-    assert_eq!(editor.redo_len(), steps);
-    while editor.redo() {}
-    assert!(editor.body() == &end, "seed {seed}: done again is not the end");
-    let text = serde_json::to_string(&operations).unwrap();
-    let read: Vec<Operation> = serde_json::from_str(&text).unwrap();
-    assert_eq!(read, operations);
-    let mut replay = Editor::new(body);
-    for operation in &read {
-        replay.apply(operation).unwrap();
+    let mut run = Run { crossed: u64::from(checked.crossed), ..Run::default() };
+    run.tally = std::mem::take(&mut checked.tally);
+    for [done, refused] in run.tally.values() {
+        run.done += done;
+        run.refused += refused;
     }
-    assert!(replay.body() == &end, "seed {seed}: replayed is not the end");
+    if let Err(what) = checked.finish() {
+        fail(seed, &what, &tried);
+    }
     run
 }
 
@@ -203,33 +270,50 @@ fn random_operators_keep_bodies_sound_and_are_undone_bit_for_bit() {
     let wanted: Option<u64> = std::env::var("TOILE_RANDOM_OPERATORS").ok().and_then(|n| n.parse().ok());
     let first: u64 = std::env::var("TOILE_RANDOM_SEED").ok().and_then(|n| n.parse().ok()).unwrap_or(0);
     let seed = AtomicU64::new(first);
-    let [done, refused, crossed] = [(); 3].map(|()| AtomicU64::new(0));
-    let goal = wanted.unwrap_or(USUAL);
+    let goal = wanted.unwrap_or(USUAL.1);
+    // A usual run is always the same.
+    let last = if wanted.is_some() { u64::MAX } else { first + USUAL.0 };
+    let total = Mutex::new(Run::default());
     std::thread::scope(|scope| {
         for _ in 0..2 {
             scope.spawn(|| {
-                while done.load(Ordering::Relaxed) < goal {
-                    let run = run(seed.fetch_add(1, Ordering::Relaxed), ON_ONE);
-                    let before = done.fetch_add(run.done, Ordering::Relaxed);
-                    refused.fetch_add(run.refused, Ordering::Relaxed);
-                    crossed.fetch_add(run.crossed, Ordering::Relaxed);
-                    if wanted.is_some() && before / 100_000 != (before + run.done) / 100_000 {
+                while wanted.is_none() || total.lock().unwrap().done < goal {
+                    let seed_now = seed.fetch_add(1, Ordering::Relaxed);
+                    if seed_now >= last {
+                        break;
+                    }
+                    let run = run(seed_now, ON_ONE);
+                    let mut total = total.lock().unwrap();
+                    let before = total.done;
+                    total.done += run.done;
+                    total.refused += run.refused;
+                    total.crossed += run.crossed;
+                    for (name, [done, refused]) in run.tally {
+                        let tally = total.tally.entry(name).or_default();
+                        tally[0] += done;
+                        tally[1] += refused;
+                    }
+                    if wanted.is_some() && before / 100_000 != total.done / 100_000 {
+                        let bodies = seed.load(Ordering::Relaxed) - first;
+                        let Run { done, refused, crossed, .. } = *total;
                         eprintln!(
-                            "{} operators done, {} refused, {} bodies of {} ended across themselves",
-                            before + run.done,
-                            refused.load(Ordering::Relaxed),
-                            crossed.load(Ordering::Relaxed),
-                            seed.load(Ordering::Relaxed) - first
+                            "{done} operators done, {refused} refused, {bodies} bodies, {crossed} crossed"
                         );
                     }
                 }
             });
         }
     });
-    let [done, refused, crossed] = [done, refused, crossed].map(AtomicU64::into_inner);
     let bodies = seed.into_inner() - first;
+    let Run { done, refused, crossed, tally } = total.into_inner().unwrap();
+    if wanted.is_some() {
+        eprintln!("{done} operators done, {refused} refused, {bodies} bodies, {crossed} crossed; {tally:?}");
+    }
     assert!(done >= goal && refused > done / 20, "{done} operators done, {refused} refused");
-    assert!(crossed <= bodies / 4, "{crossed} bodies of {bodies} crossed themselves");
+    assert!(crossed <= bodies / 20, "{crossed} bodies of {bodies} crossed themselves");
+    // Every operator has been carried out.
+    let never: Vec<_> = tally.iter().filter(|(_, [done, _])| *done == 0).collect();
+    assert!(never.is_empty() && tally.len() >= 42, "{never:?} of {}", tally.len());
 }
 
 #[test]

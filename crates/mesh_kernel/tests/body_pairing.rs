@@ -24,6 +24,12 @@ fn resolve_edge(body: &Body, joint: JointId, pairing: Pairing) -> Resolution {
     let edges = body.joint_len(joint) as i64;
     let pairs = body.joint(joint).radial().len() as i64 / 2;
     assert_eq!(done.after.e - done.before.e, (pairs - 1) * edges);
+    // The same as an operator: undone and done again, bit for bit.
+    let mut editor = Editor::new(body.clone());
+    editor.resolve_edge(joint, pairing).unwrap();
+    assert_eq!(editor.body(), &done.body);
+    assert!(editor.undo() && editor.body() == body && editor.redo());
+    assert_eq!(editor.body(), &done.body);
     done
 }
 
@@ -559,5 +565,51 @@ fn copies_keep_flat_and_backup_positions() {
         assert_eq!(s.backup().unwrap(), s.positions());
         assert!(s.planar().unwrap().iter().zip(s.positions()).all(|(q, p)| *q == p.truncate() * 3.0));
         assert_eq!(s.faces().len(), old.faces().len());
+    }
+}
+
+#[test]
+fn bodies_with_free_numbers() {
+    for grouping in [1, 2] {
+        let mut solids = Solids::new(grouping);
+        solids.block([0, 0, 0], [3; 3]);
+        solids.block([3, 3, 0], [3; 3]);
+        solids.block([6, 6, 3], [3; 3]);
+        let body = solids.body();
+        let joint = only_joint(&body);
+        let near_joint = body.joint_nodes(joint, 0);
+        let mut editor = Editor::new(body);
+        // A joint of two sheets, and a face in the middle of a facet, are taken away.
+        let plain = editor.body().joints().find(|(_, j)| j.radial().len() == 2).map(|(id, _)| id);
+        if let Some(plain) = plain {
+            editor.kill_joint(plain).unwrap();
+        }
+        let surface = editor.body().joint(joint).uses()[0].surface;
+        let s = editor.body().surface(surface);
+        let away = |f: &FaceId| s.faces()[f.index()].iter().all(|v| !near_joint.contains(v));
+        let faces: Vec<FaceId> = s.live_faces().filter(away).collect();
+        // Some have other joints in the way.
+        assert!(faces.iter().any(|&face| editor.kill_face(surface, face).is_ok()));
+        let body = editor.into_body();
+        assert!(!body.is_compact());
+        sound(&body);
+        assert!(body.edge_sectors(surface, EdgeId(0)).len() <= 2);
+        for pairing in BOTH {
+            let done = resolve_edge(&body, joint, pairing);
+            let last = all_resolved(&done.body, Pairing::Miss);
+            assert!(last.non_manifold_joints().is_empty() && last.non_manifold_nodes().is_empty());
+        }
+        let (node_surface, node) = body
+            .non_manifold_nodes()
+            .into_iter()
+            .find(|(s, v)| body.surface(*s).positions()[v.index()] == DVec3::new(6.0, 6.0, 3.0))
+            .unwrap();
+        let done = body.resolve_node(node_surface, node, Pairing::Miss).unwrap();
+        kept(&body, &done);
+        assert_eq!(done.after.c, done.before.c + 1);
+        // A joint that is gone is no joint.
+        if let Some(plain) = plain {
+            assert_eq!(body.edge_pairings(plain), Err(PairingError::NoJoint(plain)));
+        }
     }
 }

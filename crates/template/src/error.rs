@@ -88,6 +88,14 @@ fn at(path: &str) -> String {
 
 impl TemplateError {
     pub(crate) fn format(path: impl Into<String>, message: impl Into<String>) -> Self {
-        Self::Format { path: path.into(), message: message.into() }
+        Self::Format { path: shortened(path.into()), message: shortened(message.into()) }
+    }
+}
+
+/// At most 300 characters: what is named is quoted, and names may be of any length.
+fn shortened(text: String) -> String {
+    match text.char_indices().nth(300) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text,
     }
 }

@@ -45,8 +45,7 @@ impl Template {
     /// # Errors
     /// [`TemplateError::Format`] with the path of the value at fault, [`TemplateError::Version`].
     pub fn from_json(text: &str) -> Result<Self, TemplateError> {
-        let file = format::strict::from_str(text)
-            .map_err(|e| TemplateError::Format { path: e.path, message: e.message })?;
+        let file = format::strict::from_str(text).map_err(|e| TemplateError::format(e.path, e.message))?;
         Self::from_file(file)
     }
 

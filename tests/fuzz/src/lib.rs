@@ -53,6 +53,9 @@ pub enum Reading {
     Refused(String),
 }
 
+/// What is under test.
+pub type Read = Box<dyn Fn(&[u8]) -> Reading + Send>;
+
 /// A reader under test.
 pub struct Reader {
     /// Name in reports.
@@ -70,7 +73,7 @@ pub struct Reader {
     /// … and so many for every byte of the input.
     pub memory_factor: usize,
     /// The reader with the checks of what it returns; it panics where that is not sound.
-    pub read: Box<dyn Fn(&[u8]) -> Reading + Send>,
+    pub read: Read,
 }
 
 /// An input that a reader does not survive.

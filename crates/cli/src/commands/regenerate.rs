@@ -62,7 +62,7 @@ pub(crate) fn settings(words: &Build) -> Settings {
 /// What shall be written; everything when the call does not say.
 pub(crate) fn artifacts(words: &Build) -> Vec<Artifact> {
     if words.formats.is_empty() {
-        return Artifact::ALL.to_vec();
+        return Artifact::DEFAULT.to_vec();
     }
     let of = |format: &Format| match format {
         Format::Obj => Artifact::Obj,
@@ -73,6 +73,7 @@ pub(crate) fn artifacts(words: &Build) -> Vec<Artifact> {
         Format::Json => Artifact::Json,
         Format::Png => Artifact::Png,
         Format::Toile => Artifact::Toile,
+        Format::Body => Artifact::Body,
     };
     words.formats.iter().map(of).collect()
 }

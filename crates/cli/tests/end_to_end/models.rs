@@ -1,7 +1,9 @@
 //! `check`, `info`, `flatten` and `render` on models made here.
 
+use std::path::Path;
+
 use crate::call::{Folder, has_keys, number, toile, word};
-use crate::fixtures::{form, read, three_sheets};
+use crate::fixtures::{dress, form, read, three_sheets};
 
 const INFO_KEYS: [&str; 14] = [
     "surfaces",
@@ -129,4 +131,42 @@ fn pictures_have_the_asked_size_and_differ_by_view() {
     folder.write("sheets.thickness.json", "[1, 2]");
     toile(&["render", word(&model), "-o", word(&thick), "--color", "thickness", "--size", "64x64"])
         .refused(1, "");
+}
+
+#[test]
+fn a_native_body_says_the_same_as_its_mesh_and_damage_is_named() {
+    let folder = Folder::new("native-body");
+    let out = folder.join("out");
+    toile(&[
+        "regenerate",
+        word(dress()),
+        "--body",
+        word(form()),
+        "--out",
+        word(&out),
+        "--formats",
+        "obj,body",
+        "--levels",
+        "2",
+    ])
+    .succeeded();
+    let [native, mesh] = ["garment.body.json", "garment.obj"].map(|name| out.join(name));
+    let info = |path: &Path| toile(&["info", word(path), "--json"]).succeeded().json();
+    let (a, b) = (info(&native), info(&mesh));
+    for key in
+        ["surfaces", "joints", "nodes", "edges", "faces", "components", "cycles", "voids", "boundary_loops"]
+    {
+        assert_eq!(a[key], b[key], "{key}");
+    }
+    assert_eq!(toile(&["check", word(&native), "--json"]).succeeded().json()["ok"], true);
+
+    let text = std::fs::read_to_string(&native).unwrap();
+    for (damaged, named) in [
+        (text[..text.len() / 2].to_owned(), "cut off"),
+        (text.replacen("\"version\":1", "\"version\":7", 1), "version 7"),
+        (text.replacen("toile-body", "other", 1), "other"),
+    ] {
+        let path = folder.write("damaged.body.json", damaged);
+        toile(&["check", word(&path)]).refused(1, named);
+    }
 }

@@ -112,7 +112,8 @@ impl Body {
     }
 
     /// The wedges about an edge of a surface, and the face-uses that bound them, in clockwise order: those of its joint
-    /// where it is on one; two within a surface; one on its boundary; one without face-uses about a wire.
+    /// where it is on one; two within a surface; one on its boundary; one without face-uses about a wire;
+    /// none where there is no such edge.
     ///
     /// O(sheets), and O(length of the chain) on a joint.
     pub fn edge_sectors(&self, surface: SurfaceId, edge: EdgeId) -> Vec<EdgeSector> {
@@ -134,6 +135,9 @@ impl Body {
             return if sectors.is_empty() { wire } else { sectors };
         }
         let s = self.surface(surface);
+        if !s.is_edge(edge) {
+            return Vec::new();
+        }
         let [a, b] = s.edges()[edge.index()].map(|v| s.positions[v as usize]);
         let faces: Vec<(Side, u32)> = [Side::Left, Side::Right]
             .into_iter()
@@ -165,7 +169,7 @@ impl Body {
     /// The joint that an edge is on, and which of the joint's edges it is.
     fn place_on_joint(&self, surface: SurfaceId, edge: EdgeId) -> Option<(JointId, usize)> {
         let s = self.surface(surface);
-        let id = s.edge_chain(edge)?;
+        let id = s.is_edge(edge).then(|| s.edge_chain(edge)).flatten()?;
         let chain = s.chain(id);
         let joint = chain.joint()?;
         let at = chain.edges().iter().map(|d: &DirectedEdge| d.edge()).position(|e| e == edge)?;

@@ -315,3 +315,159 @@ fn check_slots<T>(slots: &Slots<T>, name: impl Fn(u32) -> Entity, defects: &mut 
         SlotFault::NotFree(i) | SlotFault::Lost(i) | SlotFault::NotNormal(i) => Defect::Slot(name(i)),
     }));
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::complex::{Editor, NewFace};
+
+    /// A square with a ring vertex, a second square on one of its edges, an upright one there too, a wire.
+    fn sound() -> Complex {
+        let mut m = Editor::default();
+        let square = |m: &mut Editor, at: [DVec3; 2], old: Option<[VertexId; 2]>| {
+            let [a, b] = old.unwrap_or_else(|| {
+                let a = m.make_vertex_complex(DVec3::ZERO).unwrap();
+                [a, m.make_vertex_edge(a, DVec3::X).unwrap().vertex]
+            });
+            let c = m.make_vertex_edge(b, at[0]).unwrap().vertex;
+            let d = m.make_vertex_edge(c, at[1]).unwrap().vertex;
+            m.make_edge_chole(d, a).unwrap();
+            let walk = m.complex().walk(&[a, b, c, d]).unwrap();
+            (m.make_face_kill_chole(NewFace::new(walk)).unwrap(), [a, b])
+        };
+        let (f, old) = square(&mut m, [DVec3::new(1.0, 1.0, 0.0), DVec3::Y], None);
+        square(&mut m, [DVec3::new(1.0, -1.0, 0.0), -DVec3::Y], Some(old));
+        square(&mut m, [DVec3::new(1.0, 0.0, 1.0), DVec3::Z], Some(old));
+        m.make_vertex_ring(f, DVec3::new(0.5, 0.5, 0.0)).unwrap();
+        m.make_vertex_edge(old[0], -DVec3::ONE).unwrap();
+        m.into_complex()
+    }
+
+    /// What `break_it` breaks must be told first.
+    fn assert_told(break_it: impl FnOnce(&mut Complex), told: impl Fn(&Defect) -> bool) {
+        let mut complex = sound();
+        assert_eq!(complex.check(), []);
+        break_it(&mut complex);
+        let defects = complex.check();
+        assert!(defects.iter().any(told), "{defects:?}");
+        assert!(defects.iter().all(|d| !d.to_string().is_empty()));
+    }
+
+    #[test]
+    fn every_broken_rule_is_told() {
+        let edge =
+            |c: &mut Complex, e: u32, f: &dyn Fn(&mut crate::complex::Edge)| f(c.edges.get_mut(e).unwrap());
+        assert_told(
+            |c| c.vertices.get_mut(2).unwrap().position.x = f64::NAN,
+            |d| matches!(d, Defect::NotFinite { vertex: VertexId(2), .. }),
+        );
+        assert_told(
+            |c| edge(c, 0, &|e| e.ends[1] = VertexId(55)),
+            |d| *d == Defect::Dead { from: Entity::Edge(EdgeId(0)), to: Entity::Vertex(VertexId(55)) },
+        );
+        assert_told(|c| edge(c, 1, &|e| e.ends[1] = e.ends[0]), |d| *d == Defect::SelfLoop(EdgeId(1)));
+        assert_told(
+            |c| edge(c, 0, &|e| e.uses.truncate(2)),
+            |d| matches!(d, Defect::OneSided { from: Entity::Face(_), to: Entity::Edge(EdgeId(0)) }),
+        );
+        assert_told(
+            |c| edge(c, 0, &|e| e.uses[1].face = FaceId(9)),
+            |d| *d == Defect::Dead { from: Entity::Edge(EdgeId(0)), to: Entity::Face(FaceId(9)) },
+        );
+        assert_told(
+            |c| edge(c, 0, &|e| e.uses.push(e.uses[0])),
+            |d| *d == Defect::Twice { face: FaceId(0), what: Entity::Edge(EdgeId(0)) },
+        );
+        assert_told(
+            |c| edge(c, 0, &|e| e.uses.rotate_left(1)),
+            |d| *d == Defect::NotCanonical(Entity::Edge(EdgeId(0))),
+        );
+        // Exchanged, but from the smallest on: only the positions tell.
+        assert_told(
+            |c| edge(c, 0, &|e| e.uses.swap(1, 2)),
+            |d| matches!(d, Defect::Radial { edge: EdgeId(0), stored, found } if stored != found),
+        );
+        assert_told(
+            |c| c.vertices.get_mut(0).unwrap().edges.retain(|e| e.0 != 0),
+            |d| *d == Defect::OneSided { from: Entity::Edge(EdgeId(0)), to: Entity::Vertex(VertexId(0)) },
+        );
+        assert_told(
+            |c| c.vertices.get_mut(0).unwrap().edges.reverse(),
+            |d| *d == Defect::NotCanonical(Entity::Vertex(VertexId(0))),
+        );
+        assert_told(
+            |c| c.vertices.get_mut(0).unwrap().faces.push(FaceId(0)),
+            |d| *d == Defect::OneSided { from: Entity::Vertex(VertexId(0)), to: Entity::Face(FaceId(0)) },
+        );
+        let face = |c: &mut Complex, f: &dyn Fn(&mut Vec<Loop>)| f(&mut c.faces.get_mut(0).unwrap().loops);
+        assert_told(|c| face(c, &Vec::clear), |d| *d == Defect::EmptyLoop(FaceId(0)));
+        assert_told(
+            |c| face(c, &|l| l[0] = Loop::Walk(l[0].edges()[1..].to_vec())),
+            |d| matches!(d, Defect::OpenLoop { face: FaceId(0), number: 0, .. }),
+        );
+        assert_told(
+            |c| face(c, &|l| l.push(l[1].clone())),
+            |d| matches!(d, Defect::Twice { face: FaceId(0), what: Entity::Vertex(_) }),
+        );
+        assert_told(
+            |c| face(c, &|l| l.push(Loop::Vertex(VertexId(0)))),
+            |d| *d == Defect::NotCanonical(Entity::Face(FaceId(0))),
+        );
+        assert_told(
+            |c| c.faces.get_mut(1).unwrap().loops.iter_mut().for_each(|l| *l = l.reversed()),
+            |d| matches!(d, Defect::OneSided { from: Entity::Face(FaceId(1)), .. }),
+        );
+    }
+
+    #[test]
+    fn a_ring_that_runs_as_the_outer_loop_is_told() {
+        let mut m = Editor::default();
+        let wire = |m: &mut Editor, at: f64, side: f64| {
+            let p = |x: f64, y: f64| DVec3::new(at + x * side, at + y * side, 0.0);
+            let a = m.make_vertex_complex(p(0.0, 0.0)).unwrap();
+            let b = m.make_vertex_edge(a, p(1.0, 0.0)).unwrap().vertex;
+            let c = m.make_vertex_edge(b, p(0.0, 1.0)).unwrap().vertex;
+            m.make_edge_chole(c, a).unwrap();
+            m.complex().walk(&[a, b, c]).unwrap()
+        };
+        let (outer, ring) = (wire(&mut m, 0.0, 4.0), wire(&mut m, 1.0, 1.0));
+        let good = m.make_face(NewFace::new(outer.clone()).ring(ring.reversed())).unwrap();
+        assert_eq!(m.complex().check(), []);
+        m.kill_face(good.face).unwrap();
+        m.make_face(NewFace::new(outer).ring(ring)).unwrap();
+        let defects = m.complex().check();
+        assert_eq!(defects, [Defect::RingDirection { face: FaceId(0), number: 1, outer: 8.0, ring: 0.5 }]);
+        assert_eq!(m.complex().check_with(CheckOptions { positions: false }), []);
+    }
+
+    #[test]
+    fn the_identity_can_fail() {
+        // Two faces on one square, crossed by a third whose order about one edge contradicts the others.
+        let mut m = Editor::default();
+        let corners = [DVec3::ZERO, DVec3::X, DVec3::ONE, DVec3::Y];
+        let mut v = vec![m.make_vertex_complex(corners[0]).unwrap()];
+        for c in &corners[1..] {
+            v.push(m.make_vertex_edge(*v.last().unwrap(), *c).unwrap().vertex);
+        }
+        m.make_edge_chole(v[3], v[0]).unwrap();
+        let walk = m.complex().walk(&v).unwrap();
+        m.make_face(NewFace::new(walk.clone())).unwrap();
+        m.make_face(NewFace::new(walk.clone())).unwrap();
+        let mut third = NewFace::new(walk.clone());
+        for d in walk.edges() {
+            let [old, new] = [FaceId(0), FaceId(2)].map(|face| FaceUse { face, along: true });
+            third = third.placed(m.complex().order_after(d.edge, old, new));
+        }
+        m.make_face(third).unwrap();
+        let mut complex = m.into_complex();
+        assert_eq!(complex.counts().cc, 2);
+        complex.edges.get_mut(0).unwrap().uses.swap(1, 2);
+        let defects = complex.check_with(CheckOptions { positions: false });
+        assert!(
+            matches!(defects[..], [Defect::Identity(c)] if !c.identity_holds() && c.cc == 0),
+            "{defects:?}"
+        );
+    }
+}

@@ -287,7 +287,8 @@ impl Editor {
         Ok(NewFaceInFace { edge, kept: face, new: face, delta })
     }
 
-    /// KEF, kill edge and face: the two faces of an edge become one, which has the id of the one that walks along the edge.
+    /// KEF, kill edge and face: the two faces of an edge become one, which has the id of the one that walks along the edge; where one of
+    /// them lies in a ring of the other, that of the other.
     ///
     /// e −1, f −1. Sequence: kill both faces, kill the edge, make one face of all loops. Inverse of [`Self::mef`], bit for bit where
     /// that made the edge. O(component) at most. Also Lipson's KEF.
@@ -315,6 +316,11 @@ impl Editor {
             _ => return Err(refuse(Reason::NotBetweenTwo { edge, faces: self.complex().faces_of(edge) })),
         };
         let loops = self.complex().united(edge, kept, gone);
+        // A face in whose ring the other one lies keeps its id.
+        let in_outer =
+            |f| self.complex().loops(f).first().is_some_and(|l| l.edges().iter().any(|d| d.edge == edge));
+        let swap = in_outer(kept) && !in_outer(gone);
+        let (kept, gone) = if swap { (gone, kept) } else { (kept, gone) };
         let ((), delta) = self.sequence(|editor, delta| {
             let mut lifted = editor.lift([gone, kept], delta)?;
             lifted.orders.remove(&edge);

@@ -160,7 +160,7 @@ impl Editor {
         self.transaction(|editor| {
             let outcome = edit(editor)?;
             if outcome.delta != wanted {
-                let reason = Reason::WrongDelta { found: outcome.delta, wanted };
+                let reason = Reason::WrongDelta { found: Box::new(outcome.delta), wanted: Box::new(wanted) };
                 return Err(Refusal { operator, reason });
             }
             Ok(outcome)

@@ -61,11 +61,12 @@ pub use operators::{MadeEdge, MadeFace, VertexEdge};
 pub use refusal::{Entity, Reason, Refusal};
 
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 use ids::turn_to_least;
 use slots::Slots;
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Vertex {
     position: DVec3,
     /// Ascending.
@@ -74,7 +75,7 @@ struct Vertex {
     faces: Vec<FaceId>,
 }
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Edge {
     ends: [VertexId; 2],
     class: EdgeClass,
@@ -82,18 +83,42 @@ struct Edge {
     uses: Vec<FaceUse>,
 }
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Face {
     /// The outer loop, then the rings in ascending order.
     loops: Vec<Loop>,
 }
 
 /// A non-manifold cell complex; see the [module](self).
-#[derive(Clone, Debug, Default, PartialEq)]
+///
+/// It can be stored with serde, ids and free ids included; what is read is checked ([`Complex::check_with`] without positions), and a
+/// broken one is an error that tells the first defect.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Stored")]
 pub struct Complex {
     vertices: Slots<Vertex>,
     edges: Slots<Edge>,
     faces: Slots<Face>,
+}
+
+/// A complex as read, not yet checked.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Stored {
+    vertices: Slots<Vertex>,
+    edges: Slots<Edge>,
+    faces: Slots<Face>,
+}
+
+impl TryFrom<Stored> for Complex {
+    type Error = Defect;
+
+    fn try_from(stored: Stored) -> Result<Self, Defect> {
+        let Stored { vertices, edges, faces } = stored;
+        let complex = Self { vertices, edges, faces };
+        let defects = complex.check_with(CheckOptions { positions: false });
+        defects.into_iter().next().map_or(Ok(complex), Err)
+    }
 }
 
 impl Complex {

@@ -24,7 +24,8 @@ pub struct NewFace {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub rings: Vec<Loop>,
     /// Places about edges that have three and more uses then. Where an edge is not mentioned, the place is found from the
-    /// positions; the journal holds what was found.
+    /// positions; the journal holds what was found. Faces that are far from plane leave their edges along the triangles of their
+    /// picture in the plane nearest to theirs: for such, the order is better said.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub radial: Vec<RadialOrder>,
 }

@@ -129,7 +129,8 @@ impl Editor {
     ///
     /// # Errors
     /// [`Reason::NoVertex`]; [`Reason::NotLooseEnd`] with the edges; [`Reason::VertexInUse`] where it is a loop too;
-    /// [`Reason::FacesAtEdge`] where several faces have the strut.
+    /// [`Reason::FacesAtEdge`] where several faces have the strut; [`Reason::RingTwice`] where the vertex left would be a loop of the
+    /// face twice.
     pub fn kill_vertex_edge(&mut self, vertex: VertexId) -> Result<Delta, Refusal> {
         self.apply(&Operation::KillVertexEdge { vertex }).map(|o| o.delta)
     }

@@ -273,9 +273,9 @@ pub enum Reason {
     #[error("the sequence would give {found}, not {wanted}")]
     WrongDelta {
         /// What would come.
-        found: super::Delta,
+        found: Box<super::Delta>,
         /// What the name says.
-        wanted: super::Delta,
+        wanted: Box<super::Delta>,
     },
 }
 

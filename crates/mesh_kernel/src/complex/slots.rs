@@ -2,12 +2,14 @@
 
 use std::collections::VecDeque;
 
+use serde::{Deserialize, Serialize};
+
 /// Slots with a stack of free numbers.
 ///
 /// The numbers never used so far lie, descending, under the stack, as if it were infinite: `… n+1, n | free`. Stored is the
 /// part above; a free number at its bottom that continues the descent is taken into the rest. So taking a number and giving it
 /// back is the identity on the stored bits, in either order.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Slots<T> {
     slots: Vec<Option<T>>,
     free: VecDeque<u32>,

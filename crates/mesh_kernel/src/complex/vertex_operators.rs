@@ -92,6 +92,12 @@ impl Complex {
             }
             _ => return Err(Reason::FacesAtEdge { edge: e, faces: self.faces_of(e) }),
         };
+        // What is left may be a vertex that is a loop of the face already.
+        if let Some(FaceCorner { face, corner: Corner::Vertex(v) }) = corner
+            && self.faces_pierced_at(v).binary_search(&face).is_ok()
+        {
+            return Err(Reason::RingTwice(v));
+        }
         Ok(Step {
             operation: Operation::KillVertexEdge { vertex },
             inverse: Operation::MakeVertexEdge {

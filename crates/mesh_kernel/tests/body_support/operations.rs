@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use mesh_kernel::body::edit::{Guard, Operation};
+use mesh_kernel::body::edit::{EdgeRole, Editor, FaceRole, Guard, Operation};
 use mesh_kernel::body::{
     AttributeEdge, AttributeEdgeId, AttributeNode, AttributeNodeId, Body, ChainSpec, EdgeId, FaceId, JointId,
     JointSpec, NONE, NodeId, Surface, SurfaceId,
@@ -22,6 +22,8 @@ pub struct Source {
     pub random: Random,
     /// Joints that were killed, to be made again.
     pub killed: Vec<JointSpec>,
+    /// Sides of faces that were to be killed, to be made again.
+    opened: Vec<(SurfaceId, [EdgeId; 3])>,
     /// Whether attributes are drawn.
     pub attributes: bool,
 }
@@ -34,7 +36,7 @@ impl Source {
     pub fn new(seed: u64) -> Self {
         let mut random = Random(seed);
         let attributes = random.below(3) == 0;
-        Self { random, killed: Vec::new(), attributes }
+        Self { random, killed: Vec::new(), opened: Vec::new(), attributes }
     }
 
     fn surface(&mut self, body: &Body) -> SurfaceId {
@@ -241,8 +243,8 @@ impl Source {
         loop {
             let drawn = match self.random.below(24) {
                 0 | 1 => self.vertices(body, surface, s),
-                2..=4 => self.edges(surface, s),
-                5..=8 => self.faces(surface, s),
+                2..=4 => self.edges(body, surface, s),
+                5..=8 => self.faces(body, surface, s),
                 9 => self.joints(body),
                 10 => self.layers(body, surface, s),
                 11 | 12 if self.attributes => self.attributes(surface, s),
@@ -274,7 +276,7 @@ impl Source {
         }
     }
 
-    fn edges(&mut self, surface: SurfaceId, s: &Surface) -> Operation {
+    fn edges(&mut self, body: &Body, surface: SurfaceId, s: &Surface) -> Operation {
         let (mut from, to) = (self.node(s), self.node(s));
         if self.random.below(2) == 0 && s.is_node(to) {
             // Two steps away: makes triangles.
@@ -290,24 +292,59 @@ impl Source {
             }
             from = NodeId(at);
         }
-        match self.random.below(7) {
-            0 | 1 => Operation::MakeEdge { surface, from, to },
-            2 => Operation::MakeEdgeChole { surface, from, to },
-            3 => Operation::MakeEdgeKillComplex { surface, from, to },
-            4 => Operation::KillEdge { surface, edge: self.wire(s) },
-            5 => Operation::KillEdgeChole { surface, edge: self.wire(s) },
-            _ => Operation::KillEdgeMakeComplex { surface, edge: self.wire(s) },
+        let mut trial = Editor::without_journal(body.clone());
+        let strict = self.random.below(3) > 0;
+        // Mostly the form that fits.
+        let other = self.random.below(5) == 0;
+        if self.random.below(2) == 0 {
+            return match trial.make_edge(surface, from, to) {
+                Ok((_, role)) if strict && (role == EdgeRole::Cycle) != other => {
+                    Operation::MakeEdgeChole { surface, from, to }
+                }
+                Ok(_) if strict => Operation::MakeEdgeKillComplex { surface, from, to },
+                _ => Operation::MakeEdge { surface, from, to },
+            };
+        }
+        let edge = self.wire(s);
+        match trial.kill_edge(surface, edge) {
+            Ok(role) if strict && (role == EdgeRole::Cycle) != other => {
+                Operation::KillEdgeChole { surface, edge }
+            }
+            Ok(_) if strict => Operation::KillEdgeMakeComplex { surface, edge },
+            _ => Operation::KillEdge { surface, edge },
         }
     }
 
-    fn faces(&mut self, surface: SurfaceId, s: &Surface) -> Operation {
-        match self.random.below(8) {
-            0 | 1 => Operation::MakeFace { surface, sides: self.triangle(s) },
-            2 | 3 => Operation::MakeFaceKillChole { surface, sides: self.triangle(s) },
-            4 => Operation::MakeFaceMakeCavity { surface, sides: self.triangle(s) },
-            5 => Operation::KillFace { surface, face: self.face(s) },
-            6 => Operation::KillFaceMakeChole { surface, face: self.face(s) },
-            _ => Operation::KillFaceKillCavity { surface, face: self.face(s) },
+    fn faces(&mut self, body: &Body, surface: SurfaceId, s: &Surface) -> Operation {
+        let mut trial = Editor::without_journal(body.clone());
+        let strict = self.random.below(3) > 0;
+        let other = self.random.below(5) == 0;
+        if self.random.below(2) == 0 {
+            let (surface, sides) = if !self.opened.is_empty() && self.random.below(2) == 0 {
+                let i = self.random.below(self.opened.len());
+                self.opened.swap_remove(i)
+            } else {
+                (surface, self.triangle(s))
+            };
+            return match trial.make_face(surface, sides) {
+                Ok((_, role)) if strict && (role == FaceRole::Filling) != other => {
+                    Operation::MakeFaceKillChole { surface, sides }
+                }
+                Ok(_) if strict => Operation::MakeFaceMakeCavity { surface, sides },
+                _ => Operation::MakeFace { surface, sides },
+            };
+        }
+        let face = self.face(s);
+        let role = trial.kill_face(surface, face);
+        if role.is_ok() {
+            self.opened.push((surface, s.face_edges()[face.index()].map(EdgeId)));
+        }
+        match role {
+            Ok(role) if strict && (role == FaceRole::Filling) != other => {
+                Operation::KillFaceMakeChole { surface, face }
+            }
+            Ok(_) if strict => Operation::KillFaceKillCavity { surface, face },
+            _ => Operation::KillFace { surface, face },
         }
     }
 
@@ -354,6 +391,13 @@ impl Source {
         let last = |n: usize, random: &mut Random| {
             if random.below(8) == 0 { random.below(n + 2) as u32 } else { n.saturating_sub(1) as u32 }
         };
+        let ring =
+            |n: &AttributeNodeId| matches!(s.attribute_nodes()[n.index()], AttributeNode::InFace { .. });
+        let ring_edge =
+            s.attribute_edges().last().is_some_and(|l| l.nodes.len() == 2 && l.nodes.iter().all(ring));
+        if ring_edge && self.random.below(3) == 0 {
+            return Operation::KillEdgeMakeRing { surface, line: AttributeEdgeId(lines as u32 - 1) };
+        }
         let random = &mut self.random;
         let two = |random: &mut Random| {
             let n = (nodes + 1) as u64;
@@ -436,7 +480,7 @@ impl Source {
                 let face = pick(&mut self.random, &hosts).unwrap_or_else(|| self.face(s));
                 Operation::TriangulateFace { surface, face }
             }
-            4..=6 if !carrying => {
+            4..=6 => {
                 let edge = self.edge(s);
                 let ends = s.edges().get(edge.index()).copied().unwrap_or([0, 1]);
                 let at = [None, Some(0.5), Some(self.random.unit())][self.random.below(3)];
@@ -444,7 +488,18 @@ impl Source {
                 let keep = NodeId(if end == 0 { 0 } else { ends[end % 2] });
                 Operation::CollapseEdge { surface, edge, keep, at, guard }
             }
-            _ => Operation::SwapEdge { surface, edge: self.edge(s), guard },
+            _ => {
+                let inner = |e: &EdgeId| {
+                    let joint = s.edge_chain(*e).and_then(|c| s.chain(c).joint());
+                    !s.edge_faces()[e.index()].contains(&NONE) && joint.is_none()
+                };
+                let inner: Vec<EdgeId> = s.live_edges().filter(inner).collect();
+                let edge = match pick(&mut self.random, &inner) {
+                    Some(e) if self.random.below(5) > 0 => e,
+                    _ => self.edge(s),
+                };
+                Operation::SwapEdge { surface, edge, guard }
+            }
         }
     }
 }

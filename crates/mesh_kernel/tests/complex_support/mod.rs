@@ -3,8 +3,13 @@
 // A test that cannot go on fails; not every test uses everything.
 #![allow(clippy::unwrap_used, dead_code, unreachable_pub, missing_docs)]
 
+pub mod random_operation;
+
 use mesh_kernel::body::Counts;
-use mesh_kernel::complex::{CheckOptions, Complex, Delta, Editor, FaceId, NewFace, VertexId};
+use mesh_kernel::complex::{
+    CheckOptions, Complex, Delta, EdgeClass, EdgeId, Editor, FaceId, NewFace, Operation, Reason, Record,
+    VertexId,
+};
 use mesh_kernel::glam::DVec3;
 
 /// A small generator: the same sequence for the same seed on every machine.
@@ -138,4 +143,61 @@ pub fn box_points(at: DVec3, size: DVec3) -> Vec<DVec3> {
 pub fn add_box(editor: &mut Editor, at: DVec3, size: DVec3) -> (Vec<VertexId>, Vec<FaceId>) {
     let faces: Vec<Vec<Vec<usize>>> = BOX_FACES.iter().map(|f| vec![f.to_vec()]).collect();
     add_faces(editor, &box_points(at, size), &faces)
+}
+
+/// Applies an operator; its delta must be the one counted, its inverse must give the complex back, undo and redo too.
+pub fn done(editor: &mut Editor, operation: Operation, wanted: Delta) {
+    let before = editor.complex().clone();
+    assert_eq!(before.can(&operation), Ok(wanted));
+    let outcome = editor.apply(&operation).unwrap();
+    assert_eq!(outcome.delta, wanted);
+    assert_eq!(Delta::between(&before.counts(), &editor.complex().counts()), wanted);
+    assert_sound_topology(editor.complex());
+    let after = editor.complex().clone();
+    let record = editor.journal().done.last().unwrap()[0].clone();
+    let mut back = Editor::new(after.clone());
+    assert_eq!(back.apply(&record.inverse).unwrap().delta, -wanted);
+    assert_bit_equal(back.complex(), &before);
+    // The inverse's inverse is the operator.
+    let again = back.journal().done.last().unwrap()[0].inverse.clone();
+    back.apply(&again).unwrap();
+    assert_bit_equal(back.complex(), &after);
+    assert!(editor.undo());
+    assert_bit_equal(editor.complex(), &before);
+    assert!(editor.redo());
+    assert_bit_equal(editor.complex(), &after);
+    let text = serde_json::to_string(&record).unwrap();
+    assert_eq!(serde_json::from_str::<Record>(&text).unwrap(), record);
+}
+
+/// The operator must be refused with this reason, and nothing change.
+pub fn refused(editor: &mut Editor, operation: Operation, reason: Reason) {
+    let before = editor.clone();
+    let refusal = editor.apply(&operation).unwrap_err();
+    assert_eq!(refusal.reason, reason);
+    assert_eq!(editor.complex().can(&operation), Err(refusal.clone()));
+    assert!(*editor == before);
+    let text = refusal.to_string();
+    assert!(text.starts_with(operation.name()) && text.ends_with(reason.remedy()), "{text}");
+}
+
+pub fn square(editor: &mut Editor) -> ([VertexId; 4], FaceId) {
+    let at = [p(0.0, 0.0, 0.0), p(1.0, 0.0, 0.0), p(1.0, 1.0, 0.0), p(0.0, 1.0, 0.0)];
+    let (v, f) = add_faces(editor, &at, &[vec![vec![0, 1, 2, 3]]]);
+    ([v[0], v[1], v[2], v[3]], f[0])
+}
+
+pub const NO_V: VertexId = VertexId(77);
+pub const NO_E: EdgeId = EdgeId(77);
+pub const NO_F: FaceId = FaceId(77);
+pub const FREE: EdgeClass = EdgeClass::Free;
+
+/// An edge along z with plates to the given directions, and the edge's id.
+pub fn fan(directions: &[[f64; 2]]) -> (Editor, EdgeId, Vec<FaceId>) {
+    let nodes: Vec<[f64; 2]> = [[0.0, 0.0]].into_iter().chain(directions.iter().copied()).collect();
+    let links: Vec<[usize; 2]> = (1..nodes.len()).map(|k| [0, k]).collect();
+    let editor = extruded(&nodes, &links);
+    let e = editor.complex().edges().max_by_key(|e| editor.complex().uses(*e).len()).unwrap();
+    let faces = editor.complex().faces().collect();
+    (editor, e, faces)
 }

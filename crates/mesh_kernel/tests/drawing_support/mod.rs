@@ -15,7 +15,7 @@ fn project(p: DVec3) -> DVec2 {
 }
 
 /// Picture of two bodies side by side with an arrow between them, in one scale.
-pub fn before_after(before: &Body, after: &Body) -> String {
+pub(crate) fn before_after(before: &Body, after: &Body) -> String {
     let points: Vec<DVec2> = [before, after]
         .iter()
         .flat_map(|b| b.surfaces())

@@ -30,6 +30,11 @@ fn reader(
     }
 }
 
+/// The caller shortens what it says of JSON.
+fn of_json(error: &serde_json::Error) -> String {
+    error.to_string().chars().take(300).collect()
+}
+
 fn sample(name: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../samples").join(name);
     std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
@@ -125,7 +130,7 @@ fn measurements() {
     run(reader("measurements", seeds, |bytes| {
         let given: Measurements = match serde_json::from_slice(bytes) {
             Ok(given) => given,
-            Err(error) => return Reading::Refused(error.to_string()),
+            Err(error) => return Reading::Refused(of_json(&error)),
         };
         match given.resolve() {
             Ok(all) => {
@@ -166,7 +171,7 @@ fn features() {
             assert_eq!(again, features);
             Reading::Sound(vec![features.points.len(), features.curves.len(), features.girths.len()])
         }
-        Err(error) => Reading::Refused(error.to_string()),
+        Err(error) => Reading::Refused(of_json(&error)),
     }));
 }
 

@@ -1,6 +1,7 @@
 //! What fuzzing and looking for more of its kind found, a test each.
 
 use design::document::{Document, DocumentError};
+use mesh_kernel::body::Body;
 use mesh_kernel::files::{Format, ReadError, parse};
 
 use crate::designs::{document, templates};
@@ -105,4 +106,27 @@ fn template_with_an_unknown_name_of_many_letters() {
     let text = text.replacen(r#""nodes":{"#, &format!(r#""nodes":{{{many}"#), 1);
     let error = template::Template::from_json(&text).unwrap_err();
     assert!(error.to_string().contains("there is no node"), "{error}");
+}
+
+#[test]
+fn messages_do_not_quote_names_of_any_length() {
+    let long = "\u{1f9f5}\u{0}".repeat(5_000);
+    let text = templates()[0].replace("\"waist\",\"toward\"", "\"waist\",\"towards\"");
+    for text in [
+        text.replace("towards", &serde_json::to_string(&long).unwrap().replace('"', "")),
+        templates()[0].replace(r#""rows":[["b","#, &format!(r#""rows":[[{},"#, serde_json::json!(long))),
+        templates()[0].replace(r#""level":2"#, &format!(r#""level":{}"#, serde_json::json!(long))),
+    ] {
+        let error = template::Template::from_json(&text).unwrap_err();
+        assert!(error.to_string().len() < 3_000, "{error}");
+    }
+    let design = String::from_utf8(document(&templates()[0]).to_bytes()).unwrap();
+    let design = design.replace(r#""levels":2"#, &format!(r#""levels":{}"#, serde_json::json!(long)));
+    let error = Document::from_bytes(design.as_bytes()).unwrap_err();
+    assert!(error.to_string().len() < 3_000, "{error}");
+    let body = r#"{"format":"toile-body","version":1,"surfaces":[{"name":"s","positions":[[0,0,0]],"edges":[],"faces":[],
+        "chains":[{"start":0,"edges":[]}],"loops":[LOOPS]}]}"#
+        .replace("LOOPS", &["[0]"; 3_000].join(","));
+    let error = Body::from_file_bytes(body.as_bytes()).unwrap_err();
+    assert!(error.to_string().len() < 1_000, "{error}");
 }

@@ -1,8 +1,10 @@
 //! Every reader of the libraries on damaged files. See the crate's documentation.
 
 mod bodies;
+mod complexes;
 mod designs;
 mod finds;
+mod journals;
 mod meshes;
 
 use fuzz::{CountingAllocator, Reader, fuzz};

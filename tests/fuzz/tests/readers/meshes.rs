@@ -216,7 +216,7 @@ fn gltf() {
     reader.shape = Shape::Gltf;
     // Nodes share meshes and primitives share numbers: the file unfolds, up to the reader's own limit of 2^18 + 4 a byte
     // vertices and triangles (24, 12 and, with flat coordinates, 48 bytes each; growing lists as above).
-    reader.base_memory = 3 * 84 << 18;
+    reader.base_memory = (3 * 84) << 18;
     reader.memory_factor = 3 * 84 * 4;
     // A document with everything a transform can hold.
     let text = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,2]}],"nodes":[{"children":[1],"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,5,6,7,1]},

@@ -443,9 +443,10 @@ impl Editor {
             ends.sort_unstable();
             ends
         };
+        // A joint without edges may hold nodes that are one already: they must not go under it.
         let free = [
-            stars[0].class == ends(|m| (m.surface, m.removed)),
-            stars[1].class == ends(|m| (m.surface, m.kept)),
+            !stars[0].pinned && stars[0].class == ends(|m| (m.surface, m.removed)),
+            !stars[1].pinned && stars[1].class == ends(|m| (m.surface, m.kept)),
         ];
         if !free[0] {
             let on = s_joint(self.body(), surface, edge);
@@ -606,12 +607,12 @@ impl Editor {
         let stars = self.stars[c.surface.index()].as_mut();
         let s = &mut self.body.surfaces[c.surface.index()];
         let mut around = Vec::new();
-        let stars = stars.map(|stars| {
-            if stars.knows_singular() {
-                stars.edges_at(s, c.kept, &mut around);
-            }
-            stars
-        });
+        let mut stars = stars;
+        if let Some(stars) = &mut stars
+            && stars.knows_singular()
+        {
+            stars.edges_at(s, c.kept, &mut around);
+        }
         if c.attributes.is_some() {
             let gone: Vec<GoneFace> = c.faces.iter().flatten().map(Gone::for_attributes).collect();
             carry_collapse(s, c.edge.0, c.host, &gone);

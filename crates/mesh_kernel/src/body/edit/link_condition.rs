@@ -86,7 +86,7 @@ pub(super) struct WeldedStar {
     /// The nodes that joints make one, in order.
     pub(super) class: Vec<Place>,
     /// Joints without edges hold it.
-    pinned: bool,
+    pub(super) pinned: bool,
     spokes: BTreeMap<Place, Spoke>,
     wedges: Vec<Wedge>,
 }

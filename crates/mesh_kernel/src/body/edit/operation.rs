@@ -13,7 +13,8 @@ use super::swap_edge::{Guard, SwapError};
 use super::triangulate_face::{FaceTriangulation, TriangulateError};
 use crate::body::{
     AttributeEdge, AttributeEdgeId, AttributeNode, AttributeNodeId, Compaction, EdgeId, FaceId, FaceSplit,
-    JointId, JointSpec, NodeId, SplitError, SplitFaceError, SplitMap, SurfaceId,
+    JointId, JointSpec, NodeId, Pairing, PairingError, Resolution, SplitError, SplitFaceError, SplitMap,
+    SurfaceId,
 };
 
 /// One operator of [`Editor`] with all that it needs; each variant is documented at the method of the same name.
@@ -124,6 +125,10 @@ pub enum Operation {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         midpoints: Option<Vec<Vec<DVec3>>>,
     },
+    /// [`Editor::resolve_edge`].
+    ResolveEdge { joint: JointId, pairing: Pairing },
+    /// [`Editor::resolve_node`].
+    ResolveNode { surface: SurfaceId, node: NodeId, pairing: Pairing },
     /// [`Editor::compact`].
     Compact,
 }
@@ -162,6 +167,7 @@ pub enum Outcome {
     FaceSplit(FaceSplit),
     FaceTriangulated(FaceTriangulation),
     AllSplit(SplitMap),
+    Resolved(Box<Resolution>),
     Compacted(Compaction),
     Group(Vec<Outcome>),
 }
@@ -186,6 +192,8 @@ pub enum Refusal {
     SplitFace(#[from] SplitFaceError),
     #[error(transparent)]
     Triangulate(#[from] TriangulateError),
+    #[error(transparent)]
+    Pairing(#[from] PairingError),
     #[error(transparent)]
     SplitAll(#[from] SplitError),
 }
@@ -333,6 +341,12 @@ impl Editor {
                 Outcome::FaceTriangulated(self.triangulate_face(surface, face)?)
             }
             Op::SplitAll { ref midpoints } => Outcome::AllSplit(self.split_all(midpoints.as_deref())?),
+            Op::ResolveEdge { joint, pairing } => {
+                Outcome::Resolved(Box::new(self.resolve_edge(joint, pairing)?))
+            }
+            Op::ResolveNode { surface, node, pairing } => {
+                Outcome::Resolved(Box::new(self.resolve_node(surface, node, pairing)?))
+            }
             Op::Compact => Outcome::Compacted(self.compact()),
         })
     }

@@ -6,7 +6,10 @@ use super::Editor;
 use super::operation::Operation;
 use crate::body::joint::Joint;
 use crate::body::slots::Slots;
-use crate::body::{Body, Compaction, SplitError, SplitMap, Surface};
+use crate::body::{
+    Body, Compaction, JointId, NodeId, Pairing, PairingError, Resolution, SplitError, SplitMap, Surface,
+    SurfaceId,
+};
 
 /// Surfaces and joints that are *not* in the body now: those of before, or, once taken back, those of after.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,6 +57,31 @@ impl Editor {
         let map = next.split_all(midpoints)?;
         self.replace(next, || Operation::SplitAll { midpoints: midpoints.map(<[_]>::to_vec) });
         Ok(map)
+    }
+
+    /// Says what is meant where more than two sheets meet ([`Body::resolve_edge`]).
+    ///
+    /// # Errors
+    /// As [`Body::resolve_edge`]. O(size).
+    pub fn resolve_edge(&mut self, joint: JointId, pairing: Pairing) -> Result<Resolution, PairingError> {
+        let resolution = self.body.resolve_edge(joint, pairing)?;
+        self.replace(resolution.body.clone(), || Operation::ResolveEdge { joint, pairing });
+        Ok(resolution)
+    }
+
+    /// Says what is meant where several fans of faces share a node ([`Body::resolve_node`]).
+    ///
+    /// # Errors
+    /// As [`Body::resolve_node`]. O(size).
+    pub fn resolve_node(
+        &mut self,
+        surface: SurfaceId,
+        node: NodeId,
+        pairing: Pairing,
+    ) -> Result<Resolution, PairingError> {
+        let resolution = self.body.resolve_node(surface, node, pairing)?;
+        self.replace(resolution.body.clone(), || Operation::ResolveNode { surface, node, pairing });
+        Ok(resolution)
     }
 
     /// Closes the gaps that operators left ([`Body::compact`]); nothing is logged where there are none. O(size).

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::body::edit::Operation;
 use crate::body::{Body, Defect, NodeId, SurfaceId};
 
 /// Why a body or a journal was not read or not written.
@@ -95,6 +96,12 @@ pub enum BodyFileError {
         /// The position.
         position: DVec3,
     },
+    /// A number of an operation is NaN or infinite, which the file cannot hold.
+    #[error("operation {number} of the journal holds a number that is not finite")]
+    OperationNotFinite {
+        /// Its place, from 0.
+        number: usize,
+    },
     /// A body whose incidence, chains, loops, joints or attributes contradict each other.
     #[error("the body is not sound, {count} defects: {}{}", words(first), if *count > first.len() { "; …" } else { "" })]
     Unsound {
@@ -109,7 +116,7 @@ pub enum BodyFileError {
 const NAMED: usize = 3;
 
 fn words(defects: &[Defect]) -> String {
-    defects.iter().map(Defect::to_string).collect::<Vec<_>>().join("; ")
+    defects.iter().map(|d| shortened(&d.to_string())).collect::<Vec<_>>().join("; ")
 }
 
 /// What `serde_json` found wrong with `bytes`, in our words.
@@ -148,6 +155,20 @@ pub(super) fn check_finite(body: &Body) -> Result<(), BodyFileError> {
         s.positions.iter().enumerate().try_for_each(|(v, &p)| rule((v, "spatial", p)))?;
         s.backup.iter().enumerate().try_for_each(|(v, &p)| rule((v, "backup", p)))?;
         s.planar.iter().enumerate().try_for_each(|(v, &p)| rule((v, "planar", p.extend(0.0))))?;
+    }
+    Ok(())
+}
+
+/// Whether the text of an operation is read as the operation again. JSON has no word for numbers that are not finite;
+/// they become `null`.
+pub(crate) fn check_finite_operation(
+    number: usize,
+    operation: &Operation,
+    text: &[u8],
+) -> Result<(), BodyFileError> {
+    let suspect = text.windows(4).any(|word| word == b"null");
+    if suspect && serde_json::from_slice::<Operation>(text).ok().as_ref() != Some(operation) {
+        return Err(BodyFileError::OperationNotFinite { number });
     }
     Ok(())
 }

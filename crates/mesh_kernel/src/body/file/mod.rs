@@ -14,6 +14,7 @@ use serde::Deserialize;
 
 use super::Body;
 pub use error::BodyFileError;
+pub(crate) use error::check_finite_operation;
 pub(crate) use record::BodyRecord;
 pub(crate) use write::write_body;
 
@@ -33,8 +34,7 @@ impl Body {
     /// # Errors
     /// A body that could not be read again is not written: [`BodyFileError::NotFinite`], [`BodyFileError::Unsound`].
     pub fn to_file_bytes(&self) -> Result<Vec<u8>, BodyFileError> {
-        error::check_finite(self)?;
-        error::check_sound(self)?;
+        check_writable(self)?;
         let mut out = Vec::new();
         write_body(self, &mut out);
         out.push(b'\n');
@@ -52,6 +52,12 @@ impl Body {
     }
 }
 
+/// Whether a body that is written can be read again.
+pub(crate) fn check_writable(body: &Body) -> Result<(), BodyFileError> {
+    error::check_finite(body)?;
+    error::check_sound(body)
+}
+
 /// Reads JSON.
 pub(crate) fn from_json<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<T, BodyFileError> {
     serde_json::from_slice(bytes).map_err(|error| error::of_json(&error, bytes))
@@ -65,11 +71,19 @@ pub(crate) fn check_head(bytes: &[u8], format: &'static str, known: u32) -> Resu
         version: Option<u64>,
     }
     let head: Head = from_json(bytes)?;
-    if head.format.as_deref() != Some(format) {
-        let found = head.format.map(|f| error::shortened(&f));
-        return Err(BodyFileError::Format { expected: format, found });
+    check_format(head.format.as_deref(), head.version, format, known)
+}
+
+fn check_format(
+    format: Option<&str>,
+    version: Option<u64>,
+    expected: &'static str,
+    known: u32,
+) -> Result<(), BodyFileError> {
+    if format != Some(expected) {
+        return Err(BodyFileError::Format { expected, found: format.map(error::shortened) });
     }
-    match head.version {
+    match version {
         Some(version) if version == u64::from(known) => Ok(()),
         found => Err(BodyFileError::Version { found, known }),
     }

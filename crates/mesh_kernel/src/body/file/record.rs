@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
 use super::error::{BodyFileError, check_sound};
+use super::{BODY_FILE_VERSION, FORMAT, check_format};
 use crate::body::joint::{JointUse, Sheet, Side};
 use crate::body::slots::{Slots, SurfaceSlots};
 use crate::body::surface::{NO_CHAIN, chain_slot};
@@ -21,10 +22,8 @@ const MOST: usize = NONE as usize - 1;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BodyRecord {
-    #[serde(rename = "format")]
-    _format: String,
-    #[serde(rename = "version")]
-    _version: u32,
+    format: String,
+    version: u64,
     surfaces: Vec<SurfaceRecord>,
     #[serde(default)]
     joints: Vec<Option<JointRecord>>,
@@ -229,6 +228,7 @@ fn slots(
 
 impl BodyRecord {
     pub(crate) fn into_body(self) -> Result<Body, BodyFileError> {
+        check_format(Some(&self.format), Some(self.version), FORMAT, BODY_FILE_VERSION)?;
         let mut body = Body::default();
         for (i, record) in self.surfaces.into_iter().enumerate() {
             body.surfaces.push(record.into_surface(SurfaceId(i as u32))?);

@@ -71,7 +71,7 @@ pub struct NodeFans {
     pub contacts: Vec<Contact>,
 }
 
-/// A fan while its place is found: faces and edges by their numbers in the complex.
+/// A fan while its place is found: faces and edges by their numbers in the welded body.
 pub(super) struct LocalFan {
     /// Faces by number through all surfaces, in order.
     pub(super) faces: Vec<u32>,
@@ -87,16 +87,16 @@ pub(super) struct LocalFan {
 /// The edges at every welded node.
 pub(super) struct Links<'a> {
     pub(super) body: &'a Body,
-    pub(super) complex: &'a Welded,
+    pub(super) welded: &'a Welded,
     starts: Vec<u32>,
     edges: Vec<u32>,
 }
 
 impl<'a> Links<'a> {
     /// O(edges).
-    pub(super) fn new(body: &'a Body, complex: &'a Welded) -> Self {
-        let mut starts = vec![0u32; complex.weld.count + 1];
-        for &[a, b] in &complex.edges {
+    pub(super) fn new(body: &'a Body, welded: &'a Welded) -> Self {
+        let mut starts = vec![0u32; welded.weld.count + 1];
+        for &[a, b] in &welded.edges {
             starts[a as usize + 1] += 1;
             starts[b as usize + 1] += 1;
         }
@@ -104,14 +104,14 @@ impl<'a> Links<'a> {
             starts[i] += starts[i - 1];
         }
         let mut fill = starts.clone();
-        let mut edges = vec![0; complex.edges.len() * 2];
-        for (e, ends) in complex.edges.iter().enumerate() {
+        let mut edges = vec![0; welded.edges.len() * 2];
+        for (e, ends) in welded.edges.iter().enumerate() {
             for &v in ends {
                 edges[fill[v as usize] as usize] = e as u32;
                 fill[v as usize] += 1;
             }
         }
-        Self { body, complex, starts, edges }
+        Self { body, welded, starts, edges }
     }
 
     fn at(&self, node: u32) -> &[u32] {
@@ -120,7 +120,7 @@ impl<'a> Links<'a> {
 
     /// Surface and number of a face numbered through all.
     pub(super) fn face(&self, f: u32) -> (SurfaceId, FaceId) {
-        self.complex.faces.face(f)
+        self.welded.faces.face(f)
     }
 
     /// The fans of faces and wires at a welded node. O(edges at the node · log).
@@ -128,7 +128,7 @@ impl<'a> Links<'a> {
         let edges = self.at(node);
         let mut index: BTreeMap<u32, u32> = BTreeMap::new();
         for &e in edges {
-            self.complex.uses(e as usize).for_each(|u| {
+            self.welded.uses(e as usize).for_each(|u| {
                 index.insert(u.face, 0);
             });
         }
@@ -136,7 +136,7 @@ impl<'a> Links<'a> {
         let mut faces = UnionFind::new(index.len());
         let mut sides = UnionFind::new(2 * index.len());
         for &e in edges {
-            let uses = self.complex.uses(e as usize);
+            let uses = self.welded.uses(e as usize);
             let local = |side: u32| 2 * index[&(side / 2)] + side % 2;
             for (u, next) in uses.clone().zip(uses.clone().cycle().skip(1)) {
                 faces.union(index[&u.face], index[&next.face]);
@@ -159,9 +159,9 @@ impl<'a> Links<'a> {
             fan.sectors.push([0, 1].map(|k| sector_of[(2 * i + k) as usize]));
         }
         for &e in edges {
-            let [a, b] = self.complex.edges[e as usize];
+            let [a, b] = self.welded.edges[e as usize];
             let end = if a == node { b } else { a };
-            let mut uses = self.complex.uses(e as usize);
+            let mut uses = self.welded.uses(e as usize);
             let valence = uses.len();
             let fan = match uses.next() {
                 Some(u) => &mut fans[fan_of[index[&u.face] as usize] as usize],
@@ -214,10 +214,10 @@ impl LocalFan {
 }
 
 /// Any node of a surface for every welded node: the first.
-pub(super) fn places(complex: &Welded) -> Vec<(SurfaceId, NodeId)> {
-    let mut places = vec![(SurfaceId(NONE), NodeId(NONE)); complex.weld.count];
-    for (s, nodes) in complex.weld.nodes.iter().enumerate().rev() {
-        for (v, &w) in nodes.iter().enumerate().rev() {
+pub(super) fn places(welded: &Welded) -> Vec<(SurfaceId, NodeId)> {
+    let mut places = vec![(SurfaceId(NONE), NodeId(NONE)); welded.weld.count];
+    for (s, nodes) in welded.weld.nodes.iter().enumerate().rev() {
+        for (v, &w) in nodes.iter().enumerate().rev().filter(|(_, w)| **w != NONE) {
             places[w as usize] = (SurfaceId(s as u32), NodeId(v as u32));
         }
     }
@@ -235,18 +235,18 @@ impl Body {
     pub fn node_fans(&self, surface: SurfaceId, node: NodeId) -> Result<NodeFans, PairingError> {
         let unknown = PairingError::NoNode { surface, node };
         let s = self.surfaces.get(surface.index()).ok_or(unknown.clone())?;
-        if node.index() >= s.positions.len() {
+        if !s.is_node(node) {
             return Err(unknown);
         }
-        let complex = Welded::new(self);
-        let links = Links::new(self, &complex);
-        let w = complex.weld.node(surface, node.0);
+        let welded = Welded::new(self);
+        let links = Links::new(self, &welded);
+        let w = welded.weld.node(surface, node.0);
         let local = links.fans(w);
-        let shells = Shells::new(&complex);
+        let shells = Shells::new(&welded);
         let contacts = contacts(&links, (surface, node), w, &local, &shells)?;
         let mut fans: Vec<Fan> = local.iter().map(|fan| links.fan(w, fan)).collect();
         // Nodes that stand alone, held by a joint without edges.
-        for (s, nodes) in complex.weld.nodes.iter().enumerate() {
+        for (s, nodes) in welded.weld.nodes.iter().enumerate() {
             for v in (0..nodes.len()).filter(|v| nodes[*v] == w) {
                 let there = (SurfaceId(s as u32), NodeId(v as u32));
                 if !fans.iter().any(|f| f.nodes.contains(&there)) {
@@ -260,10 +260,10 @@ impl Body {
 
     /// Nodes at which several fans meet, each by its first surface's node. O(faces · log).
     pub fn non_manifold_nodes(&self) -> Vec<(SurfaceId, NodeId)> {
-        let complex = Welded::new(self);
-        let links = Links::new(self, &complex);
-        let places = places(&complex);
-        (0..complex.weld.count as u32)
+        let welded = Welded::new(self);
+        let links = Links::new(self, &welded);
+        let places = places(&welded);
+        (0..welded.weld.count as u32)
             .filter(|&w| links.fans(w).len() > 1)
             .map(|w| places[w as usize])
             .collect()
@@ -276,7 +276,7 @@ impl Links<'_> {
         let mut nodes = Vec::new();
         for &(s, f) in &faces {
             let corners = self.body.surface(s).faces[f.index()];
-            let own = corners.into_iter().filter(|&v| self.complex.weld.node(s, v) == node);
+            let own = corners.into_iter().filter(|&v| self.welded.weld.node(s, v) == node);
             nodes.extend(own.map(|v| (s, NodeId(v))));
         }
         let mut wires = Vec::new();
@@ -284,7 +284,7 @@ impl Links<'_> {
             for ((s, surface), numbers) in self.body.surfaces().zip(self.body.weld_edges().0) {
                 for e in (0..numbers.len()).filter(|&e| numbers[e] == wire) {
                     wires.push((s, EdgeId(e as u32)));
-                    let own = surface.edges[e].into_iter().filter(|&v| self.complex.weld.node(s, v) == node);
+                    let own = surface.edges[e].into_iter().filter(|&v| self.welded.weld.node(s, v) == node);
                     nodes.extend(own.map(|v| (s, NodeId(v))));
                 }
             }
@@ -307,7 +307,7 @@ fn contacts(
     if n < 2 {
         return Ok(Vec::new());
     }
-    let places = places(links.complex);
+    let places = places(links.welded);
     // Sector of fan i in which fan j lies; a wire leaves all space one sector.
     let mut within = vec![vec![0u32; n]; n];
     for i in 0..n {

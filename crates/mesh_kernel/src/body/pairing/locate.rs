@@ -61,7 +61,7 @@ fn arcs(links: &Links, node: u32, fan: &LocalFan) -> Vec<Arc> {
         let surface = links.body.surface(s);
         let corners = surface.faces[face.index()];
         for i in 0..3 {
-            if links.complex.weld.node(s, corners[i]) == node {
+            if links.welded.weld.node(s, corners[i]) == node {
                 let [p, q] = [1, 2].map(|k| surface.positions[corners[(i + k) % 3] as usize]);
                 arcs.push(Arc { p, q, sectors });
             }

@@ -36,7 +36,8 @@ use super::sectors::Crossing;
 use super::{Body, JointUse};
 
 /// What is meant where sheets meet at a non-manifold edge or node.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Pairing {
     /// Touch and join: material is one across the edge or through the node.
     Join,
@@ -71,7 +72,7 @@ impl EdgePairings {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resolution {
     /// The body. Surfaces, nodes, edges and faces keep their ids; copies come after them. Chains and loops are numbered
-    /// anew.
+    /// anew, and joints without gaps.
     pub body: Body,
     /// New id of every joint that there was, `None` where it is gone.
     pub joints: Vec<Option<JointId>>,
@@ -220,7 +221,10 @@ impl Body {
     /// No such joint; one without edges; wires in it; an odd number of sheets; two enters or leaves in a row.
     /// O(sheets).
     pub fn edge_pairings(&self, joint: JointId) -> Result<EdgePairings, PairingError> {
-        let j = self.joints.get(joint.index()).ok_or(PairingError::NoJoint(joint))?;
+        if !self.is_joint(joint) {
+            return Err(PairingError::NoJoint(joint));
+        }
+        let j = self.joint(joint);
         if self.joint_len(joint) == 0 {
             return Err(PairingError::NoEdges { joint });
         }

@@ -4,6 +4,7 @@ use super::PairingError;
 use crate::body::build::{Run, RunJoint};
 use crate::body::ids::{DirectedEdge, EdgeId, JointId, NONE, NodeId, SurfaceId};
 use crate::body::joint::Sheet;
+use crate::body::slots::Slots;
 use crate::body::surface::{NO_CHAIN, Surface};
 use crate::body::weld::UnionFind;
 use crate::body::{AttributeEdgeId, Body};
@@ -48,6 +49,7 @@ impl Unsewn {
         for s in &mut surfaces {
             s.chains.clear();
             s.loops.clear();
+            s.slots.chains = Slots::default();
             s.edge_chain.fill(NO_CHAIN);
         }
         Self { surfaces, seams, copies: Vec::new() }

@@ -33,7 +33,9 @@ impl Body {
         }
         let held = self.held_nodes(joint);
         let mut unsewn = Unsewn::new(self);
-        let Seam { name, runs, .. } = unsewn.seams.remove(joint.index());
+        let place = unsewn.seams.iter().position(|s| s.old == Some(joint));
+        let place = place.ok_or(PairingError::NoJoint(joint))?;
+        let Seam { name, runs, .. } = unsewn.seams.remove(place);
 
         // The edges of every sheet: one set for both sides of an inner chain that stays whole.
         let mut edges_of: BTreeMap<Sheet, Vec<DirectedEdge>> = BTreeMap::new();
@@ -81,12 +83,12 @@ impl Body {
         let count = seams.len();
         let mut seams = seams.into_iter();
         if let Some(first) = seams.next() {
-            unsewn.seams.insert(joint.index(), first);
+            unsewn.seams.insert(place, first);
         }
         unsewn.seams.extend(seams);
         let mut made: Vec<JointId> = (at_end..unsewn.seams.len()).map(|j| JointId(j as u32)).collect();
         if count > 0 {
-            made.insert(0, joint);
+            made.insert(0, JointId(place as u32));
         }
         unsewn.start_runs();
         let first_touch = unsewn.seams.len();
@@ -101,11 +103,10 @@ impl Body {
     /// For every welded node of the joint at which its pairs stay together (its ends, and where more than its own sheets
     /// meet), the surfaces' nodes there.
     fn held_nodes(&self, joint: JointId) -> Vec<Vec<(u32, u32)>> {
-        let complex = Welded::new(self);
-        let links = Links::new(self, &complex);
+        let welded = Welded::new(self);
+        let links = Links::new(self, &welded);
         let first = self.joint(joint).uses[0].surface;
-        let line: Vec<u32> =
-            self.joint_nodes(joint, 0).iter().map(|&v| complex.weld.node(first, v)).collect();
+        let line: Vec<u32> = self.joint_nodes(joint, 0).iter().map(|&v| welded.weld.node(first, v)).collect();
         let closed = line.first() == line.last();
         let last = line.len() - 1;
         let mut held: BTreeMap<u32, usize> = BTreeMap::new();
@@ -117,7 +118,7 @@ impl Body {
             }
         }
         let mut lists = vec![Vec::new(); held.len()];
-        for (s, nodes) in complex.weld.nodes.iter().enumerate() {
+        for (s, nodes) in welded.weld.nodes.iter().enumerate() {
             for (v, w) in nodes.iter().enumerate() {
                 if let Some(&i) = held.get(w) {
                     lists[i].push((s as u32, v as u32));

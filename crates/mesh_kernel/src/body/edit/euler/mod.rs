@@ -34,20 +34,28 @@
 //!
 //! # High-level operators as sequences (K4; Wang et al., table 3)
 //!
-//! Each of these sequences gives the body that the operator gives, bit for bit. *Kill joints* first and *make joints*
-//! last, in mirror order, are needed where a face that goes has a side on a joint; the sequence between is then carried
-//! out on all partners in turn.
+//! Each of these sequences gives the body that the operator gives, bit for bit, numbers included (`tests/body_sequences.rs`
+//! carries them out). n is the number of faces at the edge.
 //!
 //! | operator | sequence | v | e | f |
 //! |---|---|---|---|---|
-//! | edge split, n faces | kill_face right, left; split_wire; per face, left first, make_edge (new node → tip); per face, left first, make_face (part at the edge's start); per face make_face (part at its end) | +1 | +1+n | +n |
-//! | edge swap | kill_face right, left; kill_edge; make_edge (right tip → left tip); make_face left, right | | | |
-//! | edge collapse, n faces | kill all other faces at the node that goes; kill_face left, right; kill_edge; kill the sides at the node that goes, left, right; kill the other edges there; kill_vertex_complex; make the other edges and faces to the node that stays | −1 | −1−n | −n |
-//! | face split | kill the faces at its sides, highest number first; split_wire of its sides in order of numbers; make_edge for the cuts; make_face for the parts, old numbers first | +3 | +6+n | +3+n |
+//! | edge split | kill_face right, left; split_wire; make_edge from the new node to the tips, left, right; make_face for the parts at the edge's first node, left, right, then for those at its second | +1 | +1+n | +n |
+//! | edge swap | kill_face right, left; kill_edge; make_edge from the right tip to the left; make_face left, right | | | |
+//! | edge collapse | kill_face left, right, then all others at the node that goes; kill_edge for the edge, the sides there, left, right, and all others there; kill_vertex_complex; in mirror order make_edge and make_face for the others, to the node that stays | −1 | −1−n | −n |
+//! | face split, m faces on its other sides | kill_face for it and those, highest number first; split_wire for the sides; make_edge for the cuts; make_face for the parts with old numbers, lowest first, then for the new ones | +3 | +6+m | +3+m |
+//! | face triangulation | the same with split_wire for every attribute node on a side and make_vertex_complex for every one inside | | | |
 //!
-//! kill_face and make_face stand for the form that the surroundings ask for: killing one face of a closed shell opens its
-//! cavity, killing the next makes a hole. The paper lists only the latter. Likewise the last edge at a node that goes is a
-//! bridge: kill_edge_make_complex, and then kill_vertex_complex takes the complex away, which the paper passes over.
+//! *On joints.* kill_joint for every joint that a face which goes has a side on, or that runs past one; the sequence on
+//! the edge and then on its partners in order of surfaces and edges (face split and triangulation: on one surface
+//! after the other); make_joint in mirror order, their chains longer or shorter by the nodes that came or went. Radial
+//! orders are found anew from the geometry by make_joint, while the operators keep the stored ones.
+//!
+//! *Where a node goes elsewhere* (collapse to a place along the edge, partners of a split), move_nodes puts it there.
+//!
+//! *What the paper passes over.* kill_face and make_face stand for the form that the surroundings ask for: killing one
+//! face of a closed shell opens its cavity, killing the next makes a hole; the paper lists only the latter. The last edge
+//! at a node that goes is a bridge: kill_edge_make_complex, and then kill_vertex_complex takes the complex away. Attributes
+//! are carried by the operators only; the sequences refuse faces and edges that carry some.
 
 mod edges;
 mod faces;
