@@ -5,9 +5,10 @@
 
 use std::hint::black_box;
 
-use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
-use mesh_kernel::body::edit::{Editor, Guard};
-use mesh_kernel::body::{Body, EdgeId, FaceId, SurfaceId, SurfaceSpec};
+use criterion::measurement::WallTime;
+use criterion::{BatchSize, BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
+use mesh_kernel::body::edit::{CollapseOptions, Editor, Guard};
+use mesh_kernel::body::{Body, EdgeId, FaceId, NodeId, SurfaceId, SurfaceSpec};
 use mesh_kernel::glam::DVec3;
 use mesh_kernel::{Group, TriMesh};
 
@@ -58,6 +59,43 @@ fn shuffled(n: usize) -> Vec<u32> {
     order
 }
 
+/// Swaps, splits and collapses that are valid one after the other, in one random order and in the mesh's.
+fn operators(group: &mut BenchmarkGroup<'_, WallTime>, one: &Body) {
+    const S: SurfaceId = SurfaceId(0);
+    let edges = one.surface(S).edges().len();
+    let swap = |editor: &mut Editor, e: u32| editor.swap_edge(S, EdgeId(e), Guard::None).is_ok();
+    let split = |editor: &mut Editor, e: u32| editor.split_edge(S, EdgeId(e), 0.5).is_ok();
+    let collapse = |editor: &mut Editor, e: u32| {
+        let keep = NodeId(editor.body().surface(S).edges()[e as usize][1]);
+        editor.collapse_edge(S, EdgeId(e), keep, &CollapseOptions::default()).is_ok()
+    };
+    type Operator<'a> = (&'a str, &'a dyn Fn(&mut Editor, u32) -> bool, usize);
+    let operators: [Operator; 3] =
+        [("swap", &swap, edges), ("split", &split, 100_000), ("collapse", &collapse, 50_000)];
+    for (order_name, order) in [("random", shuffled(edges)), ("mesh order", (0..edges as u32).collect())] {
+        for (name, operator, most) in operators {
+            let mut trial = Editor::without_journal(one.clone());
+            let valid = order.iter().copied().filter(|&e| operator(&mut trial, e)).take(most);
+            let valid: Vec<u32> = valid.collect();
+            group.throughput(Throughput::Elements(valid.len() as u64));
+            for (journal, make) in
+                [("journal", Editor::new as fn(Body) -> Editor), ("no journal", Editor::without_journal)]
+            {
+                group.bench_function(format!("edge {name}, {order_name}, {journal}: edges"), |b| {
+                    b.iter_batched(
+                        || make(one.clone()),
+                        |mut editor| {
+                            valid.iter().for_each(|&e| _ = operator(&mut editor, e));
+                            editor
+                        },
+                        BatchSize::LargeInput,
+                    );
+                });
+            }
+        }
+    }
+}
+
 fn body(c: &mut Criterion) {
     let mesh = panel(316);
     let triangles = mesh.faces.len() as u64;
@@ -105,35 +143,7 @@ fn body(c: &mut Criterion) {
         );
     });
 
-    // One random order for all, as the peers' figures were taken; the journal is on.
-    let edges = one.surface(SurfaceId(0)).edges().len();
-    let order = shuffled(edges);
-    group.throughput(Throughput::Elements(edges as u64));
-    group.bench_function("edge swap, random: edges tried", |b| {
-        b.iter_batched(
-            || Editor::new(one.clone()),
-            |mut editor| {
-                for &e in &order {
-                    let _ = editor.swap_edge(SurfaceId(0), EdgeId(e), Guard::None);
-                }
-                editor
-            },
-            BatchSize::LargeInput,
-        );
-    });
-    group.throughput(Throughput::Elements(100_000));
-    group.bench_function("edge split, random: edges", |b| {
-        b.iter_batched(
-            || Editor::new(one.clone()),
-            |mut editor| {
-                for &e in &order[..100_000] {
-                    let _ = editor.split_edge(SurfaceId(0), EdgeId(e), 0.5);
-                }
-                editor
-            },
-            BatchSize::LargeInput,
-        );
-    });
+    operators(&mut group, &one);
     group.finish();
 
     let bytes = one.surface(SurfaceId(0)).bytes() as f64 / triangles as f64;

@@ -494,7 +494,7 @@ proptest! {
 
     #[test]
     fn what_is_done_can_be_undone(kind in 0u8..5, seed: u64, steps in 1usize..60, guard: bool) {
-        run(kind, seed, steps, if guard { Guard::NoTurn } else { Guard::None }, seed % 3 == 0);
+        run(kind, seed, steps, if guard { Guard::NoTurn } else { Guard::None }, seed.is_multiple_of(3));
     }
 }
 
@@ -508,7 +508,7 @@ fn many_random_bodies() {
         let mut random = Random(seed);
         let (kind, steps) = (random.below(5) as u8, 1 + random.below(60));
         let guard = [Guard::None, Guard::NoTurn][random.below(2)];
-        let ran = std::panic::catch_unwind(|| run(kind, seed, steps, guard, seed % 3 == 0));
+        let ran = std::panic::catch_unwind(|| run(kind, seed, steps, guard, seed.is_multiple_of(3)));
         assert!(ran.is_ok(), "seed {seed}");
     }
 }

@@ -17,14 +17,15 @@ pub(crate) struct Piece {
 /// Where a line meets a cut this near to another crossing, in shares of the line, both are one.
 const SAME_CROSSING: f64 = 1e-12;
 
-/// A crossing this near to an end of a cut, in shares of the cut, is there: all parts of the face round that node carry it.
-const AT_END: f64 = 1e-12;
-
-fn at_ends(u: f64) -> f64 {
-    match u {
-        u if u <= AT_END => 0.0,
-        u if u >= 1.0 - AT_END => 1.0,
-        u => u,
+/// A parameter of an edge; so near an end that only rounding is in between, that end. A line that passes a node must not
+/// pass beside it.
+fn snapped(u: f64) -> f64 {
+    if u <= SAME_CROSSING {
+        0.0
+    } else if u >= 1.0 - SAME_CROSSING {
+        1.0
+    } else {
+        u
     }
 }
 
@@ -37,10 +38,10 @@ impl Piece {
     /// The new host of a point of the old face: a cut where it lies exactly on one, else a face.
     fn locate(&self, p: [f64; 3]) -> AttributeNode {
         for &(edge, [a, b]) in &self.cuts {
-            if determinant(a, b, p).abs() <= AT_END {
+            if determinant(a, b, p).abs() <= SAME_CROSSING {
                 let u = along(a, b, p);
-                if (-AT_END..=1.0 + AT_END).contains(&u) {
-                    return AttributeNode::OnEdge { edge: EdgeId(edge), u: at_ends(u) };
+                if (-SAME_CROSSING..=1.0 + SAME_CROSSING).contains(&u) {
+                    return AttributeNode::OnEdge { edge: EdgeId(edge), u: snapped(u) };
                 }
             }
         }
@@ -65,14 +66,14 @@ impl Piece {
         let mut found: Vec<(f64, AttributeNode)> = Vec::new();
         for &(edge, [a, b]) in &self.cuts {
             let (from, to) = (determinant(a, b, p), determinant(a, b, q));
-            if from * to >= 0.0 || from.abs() <= AT_END || to.abs() <= AT_END {
+            if from * to >= 0.0 || from.abs() <= SAME_CROSSING || to.abs() <= SAME_CROSSING {
                 continue;
             }
             let t = from / (from - to);
             let x = [0, 1, 2].map(|i| p[i] + (q[i] - p[i]) * t);
             let u = along(a, b, x);
-            if (-AT_END..=1.0 + AT_END).contains(&u) {
-                found.push((t, AttributeNode::OnEdge { edge: EdgeId(edge), u: at_ends(u) }));
+            if (-SAME_CROSSING..=1.0 + SAME_CROSSING).contains(&u) {
+                found.push((t, AttributeNode::OnEdge { edge: EdgeId(edge), u: snapped(u) }));
             }
         }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -166,7 +167,7 @@ impl Surface {
                     let k = parts.iter().position(|&(_, end)| u <= end).unwrap_or(parts.len() - 1);
                     let start = if k == 0 { 0.0 } else { parts[k - 1].1 };
                     let (edge, end) = parts[k];
-                    *node = AttributeNode::OnEdge { edge, u: at_ends((u - start) / (end - start)) };
+                    *node = AttributeNode::OnEdge { edge, u: snapped((u - start) / (end - start)) };
                 }
                 AttributeNode::InFace { face, areal } => {
                     if let Some(piece) = pieces(face.0) {

@@ -607,7 +607,9 @@ impl Editor {
         let mut stars = self.stars[c.surface.index()].as_mut();
         let s = &mut self.body.surfaces[c.surface.index()];
         let mut around = Vec::new();
-        if let Some(stars) = stars.as_deref_mut().filter(|stars| stars.knows_singular()) {
+        if let Some(stars) = &mut stars
+            && stars.knows_singular()
+        {
             stars.edges_at(s, c.kept, &mut around);
         }
         if c.attributes.is_some() {
