@@ -44,6 +44,7 @@ mod homology;
 mod ids;
 mod incomplete;
 mod joint;
+mod mend_lines;
 mod mesh_joints;
 mod pairing;
 mod radial;

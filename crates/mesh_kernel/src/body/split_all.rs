@@ -210,6 +210,7 @@ fn split_surface(s: &mut Surface, midpoints: Option<&[DVec3]>) -> SurfaceSplit {
     s.edge_chain = edge_chain;
     s.faces = new_faces;
     s.face_edges = face_edges;
+    s.mend_lines();
     split
 }
 

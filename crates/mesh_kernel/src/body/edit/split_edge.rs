@@ -178,6 +178,7 @@ impl Editor {
                 rebuild(s);
             }
         }
+        s.mend_lines();
     }
 
     /// The inverse of the last split of this surface: `edge` and `second` become one edge again.

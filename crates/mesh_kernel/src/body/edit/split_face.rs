@@ -263,6 +263,9 @@ impl Plan {
                 rebuild(s);
             });
         }
+        if !r.surface().attribute_edges.is_empty() {
+            r.change_attributes(Surface::mend_lines);
+        }
     }
 
     fn frame(&self, s: &Surface, f: u32) -> Frame {

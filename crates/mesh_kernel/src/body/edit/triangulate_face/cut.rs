@@ -182,6 +182,9 @@ pub(super) fn apply(
             rebuild(s);
         });
     }
+    if !rec.surface().attribute_edges.is_empty() {
+        rec.change_attributes(Surface::mend_lines);
+    }
     rec.finish()
 }
 

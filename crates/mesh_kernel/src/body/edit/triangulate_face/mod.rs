@@ -59,6 +59,16 @@ pub enum TriangulateError {
         /// The face.
         face: FaceId,
     },
+    /// Two sides of the face are one edge of the body.
+    #[error(
+        "face {face} of surface {surface} is folded: a joint makes two of its sides one; kill the joint first"
+    )]
+    Folded {
+        /// Surface.
+        surface: SurfaceId,
+        /// Face.
+        face: FaceId,
+    },
     /// Ids would run out.
     #[error("surface {0} has no ids left for more edges")]
     TooLarge(SurfaceId),
@@ -268,6 +278,10 @@ fn plan(
         points.sort_by(|p, q| p.0.total_cmp(&q.0));
         let own = body.runs_against_joint(surface, d.edge());
         for (t, partner) in body.partners(surface, d.edge()) {
+            // A face folded onto itself: two of its sides are one edge of the body.
+            if t == surface && s.face_edges[face.index()].contains(&partner.edge().0) {
+                return Err(TriangulateError::Folded { surface, face });
+            }
             let mut mirrored = points.clone();
             if partner.is_reversed() != own {
                 mirrored.iter_mut().for_each(|(u, _)| *u = 1.0 - *u);
