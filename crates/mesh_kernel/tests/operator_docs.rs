@@ -380,14 +380,48 @@ fn the_page_shows_what_the_operators_do() {
 const FOOT: &str = "
 ## K4 in terms of K3
 
-| operator | sequence of Euler operators | delta inside a surface |
-|---|---|---|
-| edge split | kill_face_make_chole ×2, split_edge, make_edge_chole ×2, make_face_kill_chole ×4 | v + 1, e + 3, f + 2 |
-| edge collapse | kill_face_make_chole for every face at the removed node, kill_edge_chole for its edges, the last as kill_vertex_edge; then make_edge_chole and make_face_kill_chole for all but the faces at the edge | v − 1, e − 3, f − 2 |
-| edge swap | kill_face_make_chole ×2, kill_edge_chole, make_edge_chole, make_face_kill_chole ×2 | none |
-| face split | kill_face_make_chole for the face and its neighbours, split_edge ×3, make_edge_chole and make_face_kill_chole for the parts | v + 3, e + 9, f + 6 |
-| face triangulation | kill_face_make_chole, split_edge for every node on a side, make_vertex_edge for every node inside, make_edge_chole, make_face_kill_chole | v + k, e + 3k, f + 2k for k nodes inside |
+Killing a face means the form that its surroundings ask for (it makes a hole, or opens a cavity), and so does making one.
+n is the number of faces at the edge over all its sheets, m the number of faces on a split face's other sides.
 
-The test `body_euler` of the kernel carries out both ways and compares the bodies bit for bit. On a joint the joint is
-killed first, the sequence done on every partner, and the joint made again.
+| operator | sequence of Euler operators | delta |
+|---|---|---|
+| edge split | kill_face for its faces; split_edge; make_edge to the tips; make_face for the parts | v + 1, e + 1 + n, f + n |
+| edge collapse | kill_face for all faces at the node that goes; kill_edge for its edges; kill_vertex_complex; make_edge and make_face to the node that stays | v − 1, e − 1 − n, f − n |
+| edge swap | kill_face ×2, kill_edge, make_edge, make_face ×2 | none |
+| face split | kill_face for it and the faces on its sides; split_edge ×3; make_edge for the cuts; make_face for the parts | v + 3, e + 6 + m, f + 3 + m |
+| face triangulation | the same with split_edge for every attribute node on a side and make_vertex_complex for every one inside | by the nodes there |
+
+The test `body_sequences` of the kernel carries out both ways and compares the bodies bit for bit, numbers included. On a
+joint the joint is killed first, the sequence done on every partner, and the joint made again. The order of every step is in
+the documentation of `body::edit::euler`.
+
+## Names of other papers
+
+On a `Complex`, whose faces may have any outline and rings and whose edges any number of faces, Lee & Kim's operators are
+(inverses KVS, KVL, KEV, KEC, KEF, KEMS, KEML, KFMC, KFR, JEKV with the negative deltas):
+
+| name | sequence | V | E | F | L | S | C | R |
+|---|---|---|---|---|---|---|---|---|
+| MVS | make_vertex_complex | +1 | | | | +1 | | |
+| MVL | make_vertex_ring | +1 | | | +1 | | | |
+| MEV | make_vertex_edge | +1 | +1 | | | | | |
+| MEC | make_edge_chole | | +1 | | | | +1 | |
+| MEF | kill the face, make_edge_chole, make two faces; on wires make_edge_chole, make_face_kill_chole | | +1 | +1 | | | | |
+| MEKS | make_edge_kill_complex | | +1 | | | −1 | | |
+| MEKL | make_edge_kill_ring | | +1 | | −1 | | | |
+| MFKC | make_face_kill_chole | | | +1 | | | −1 | |
+| MFR | make_face_make_cavity | | | +1 | | | | +1 |
+| SEMV | split_edge | +1 | +1 | | | | | |
+
+and Lipson & Shpitalni's for sheet metal, where every edge is free, a bend or a weld (inverses likewise):
+
+| name | sequence | s | b | e | w | v | g_nm | m | f |
+|---|---|---|---|---|---|---|---|---|---|
+| MCV | make_vertex_complex; of a vertex that joins two parts, its division | +1 | | | | +1 | | | |
+| MEV | MEV | | | +1 | | +1 | | | |
+| MEF | MEF | | | +1 | | | | | +1 |
+| MGB | make_edge_kill_ring, the edge a bend | | +1 | | | | +1 | | |
+| MBKE | a free edge becomes a bend | | +1 | −1 | | | | | |
+| MUKE | two free edges become one that closes a cavity | | | −1 | | | | +1 | |
+| MWKB | a bend becomes a weld | | −1 | | +1 | | | | |
 ";

@@ -160,7 +160,7 @@ impl Watched {
 
 /// Runs a reader on changed files: `TOILE_FUZZ_SECONDS` long, else as many as the reader's short run has.
 ///
-/// One at a time in a process, since memory is counted for the whole of it.
+/// One at a time in a process, so that each has a core to itself.
 pub fn fuzz(reader: Reader, allocator: &'static CountingAllocator) -> Report {
     static ONE: Mutex<()> = Mutex::new(());
     let _one = ONE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);

@@ -1,16 +1,31 @@
 //! An allocator that counts, so that a test can say how much memory a reader took at most.
 
 use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
 use std::sync::atomic::{AtomicPtr, AtomicUsize, Ordering::Relaxed};
+
+thread_local! {
+    /// Bytes in use by this thread: what it took less what it gave back, whoever had taken that.
+    static OWN: Cell<isize> = const { Cell::new(0) };
+    /// The most that were.
+    static OWN_PEAK: Cell<isize> = const { Cell::new(0) };
+}
+
+/// Changes the thread's count. A thread that is ending counts no more.
+fn count(change: isize) {
+    let _ = OWN.try_with(|own| {
+        own.set(own.get() + change);
+        let _ = OWN_PEAK.try_with(|peak| peak.set(peak.get().max(own.get())));
+    });
+}
 
 /// Bytes in use and the most that were; a request that would exceed the cap ends the program.
 ///
-/// Put one into a test program with `#[global_allocator]`. Counts are of the whole process: measure one reader at a
-/// time.
+/// Put one into a test program with `#[global_allocator]`. The cap is on the whole process; what a reader takes is counted
+/// on its own thread, so that tests beside it do not matter. Readers start no threads.
 #[derive(Debug)]
 pub struct CountingAllocator {
     live: AtomicUsize,
-    peak: AtomicUsize,
     /// The input being read, to be kept when memory runs out: there is no way back from that.
     input: AtomicPtr<u8>,
     input_len: AtomicUsize,
@@ -24,7 +39,6 @@ impl CountingAllocator {
     pub const fn new() -> Self {
         Self {
             live: AtomicUsize::new(0),
-            peak: AtomicUsize::new(0),
             input: AtomicPtr::new(std::ptr::null_mut()),
             input_len: AtomicUsize::new(0),
         }
@@ -34,20 +48,25 @@ impl CountingAllocator {
     pub fn measure<T>(&self, input: &[u8], work: impl FnOnce() -> T) -> (T, usize) {
         self.input.store(input.as_ptr().cast_mut(), Relaxed);
         self.input_len.store(input.len(), Relaxed);
-        let before = self.live.load(Relaxed);
-        self.peak.store(before, Relaxed);
+        let before = OWN.get();
+        OWN_PEAK.set(before);
         let result = work();
-        let peak = self.peak.load(Relaxed).saturating_sub(before);
+        let peak = OWN_PEAK.get() - before;
         self.input_len.store(0, Relaxed);
-        (result, peak)
+        (result, usize::try_from(peak).unwrap_or(0))
     }
 
     fn add(&self, bytes: usize) {
+        count(bytes as isize);
         let live = self.live.fetch_add(bytes, Relaxed) + bytes;
-        self.peak.fetch_max(live, Relaxed);
         if live > CAP {
             self.give_up(live);
         }
+    }
+
+    fn subtract(&self, bytes: usize) {
+        count(-(bytes as isize));
+        self.live.fetch_sub(bytes, Relaxed);
     }
 
     #[cold]
@@ -87,7 +106,7 @@ unsafe impl GlobalAlloc for CountingAllocator {
     }
 
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        self.live.fetch_sub(layout.size(), Relaxed);
+        self.subtract(layout.size());
         // SAFETY: as above.
         unsafe { System.dealloc(pointer, layout) }
     }
@@ -95,7 +114,7 @@ unsafe impl GlobalAlloc for CountingAllocator {
     unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
         // Old and new may both be there while bytes move.
         self.add(size);
-        self.live.fetch_sub(layout.size(), Relaxed);
+        self.subtract(layout.size());
         // SAFETY: as above.
         unsafe { System.realloc(pointer, layout, size) }
     }

@@ -68,6 +68,11 @@ id!(
     AttributeEdgeId
 );
 
+/// Ids in a message: `3, 7, 9`.
+pub(crate) fn listed<T: std::fmt::Display>(ids: &[T]) -> String {
+    ids.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+}
+
 /// An edge with the direction in which a chain runs over it.
 ///
 /// Packed: the edge's number shifted left by one, the low bit set where the chain runs from the edge's second

@@ -16,6 +16,7 @@ use super::carry_attributes::SwapCarry;
 use super::journal::{Attributes, Record};
 use super::link_condition::Neighbourhood;
 use super::stars::{LAST, NEXT, Stars};
+use crate::body::ids::listed;
 use crate::body::{EdgeId, JointId, NONE, NodeId, Surface, SurfaceId};
 
 /// Why an edge was not swapped.
@@ -39,7 +40,8 @@ pub enum SwapError {
     },
     /// The edge lies on a joint, which holds it to the edges of other sheets.
     #[error(
-        "edge {edge} of surface {surface} lies on joint {joint} of surfaces {sheets:?}; take it off the joint first"
+        "edge {edge} of surface {surface} lies on joint {joint} of surfaces {}; take it off the joint first",
+        listed(sheets)
     )]
     OnJoint {
         /// Surface.

@@ -1,5 +1,6 @@
 //! Why an Euler operator was not carried out.
 
+use crate::body::ids::listed;
 use crate::body::{
     AttributeEdgeId, AttributeError, AttributeNodeId, EdgeId, FaceId, JointId, NodeId, SurfaceId,
 };
@@ -136,7 +137,7 @@ pub enum EulerError {
         joint: JointId,
     },
     /// Edges stand on the node.
-    #[error("edges {edges:?} of surface {surface} end in node {node}; {remedy}")]
+    #[error("edges {} of surface {surface} end in node {node}; {remedy}", listed(edges))]
     NodeHasEdges {
         /// Surface.
         surface: SurfaceId,
@@ -156,7 +157,7 @@ pub enum EulerError {
         node: NodeId,
     },
     /// The edge has faces.
-    #[error("faces {faces:?} of surface {surface} have edge {edge} as a side; {remedy}")]
+    #[error("faces {} of surface {surface} have edge {edge} as a side; {remedy}", listed(faces))]
     EdgeHasFaces {
         /// Surface.
         surface: SurfaceId,

@@ -11,19 +11,25 @@
 //! In K3 terms, for each of its faces kill_face_make_chole and kill_edge_chole (f − 1, e − 1), then the inverse of
 //! split_edge (v − 1, e − 1). Paper: Wang et al., fig. 5a and table 3.
 
-use glam::{DVec2, DVec3};
+mod carry_out;
+mod error;
+
+use glam::DVec3;
+
+pub(super) use carry_out::Collapse;
+use carry_out::{Gone, Layers, host, unsettles};
+pub use error::CollapseError;
 
 use super::Editor;
-use super::carry_attributes::{EndOf, GoneFace, carry_collapse, lines_hold};
+use super::carry_attributes::lines_hold;
 use super::journal::{Attributes, Record};
 use super::link_condition::{Neighbourhood, Obstacle, Place, obstacle};
-use super::loops::{Loops, lowest_of_whole, rebuild};
-use super::operation::Operation;
-use super::split_edge::{between, release_edge, release_face, release_node};
-use super::stars::{LAST, NEXT, Ring, Stars, corner};
+use super::loops::Loops;
+use super::split_edge::between;
+use super::stars::{Ring, Stars, corner};
 use super::swap_edge::Guard;
 use crate::body::radial::collinear;
-use crate::body::{Body, DirectedEdge, EdgeId, FaceId, JointId, NONE, NodeId, Surface, SurfaceId};
+use crate::body::{Body, EdgeId, FaceId, JointId, NONE, NodeId, Surface, SurfaceId};
 
 /// How an edge is to be collapsed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -33,127 +39,6 @@ pub struct CollapseOptions {
     pub at: Option<f64>,
     /// Whether faces may be turned over or flattened.
     pub guard: Guard,
-}
-
-/// Why an edge was not collapsed.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum CollapseError {
-    /// No such edge.
-    #[error("surface {surface} has no edge {edge}")]
-    NoEdge {
-        /// Surface.
-        surface: SurfaceId,
-        /// Edge.
-        edge: EdgeId,
-    },
-    /// The node to keep is not on the edge.
-    #[error("node {node} is no end of edge {edge} of surface {surface}; keep one of {}, {}", ends[0], ends[1])]
-    NotAnEnd {
-        /// Surface.
-        surface: SurfaceId,
-        /// Edge.
-        edge: EdgeId,
-        /// Its ends.
-        ends: [NodeId; 2],
-        /// The node named.
-        node: NodeId,
-    },
-    /// A parameter that is not on the edge.
-    #[error("the kept node goes to a parameter from 0 to 1 of the edge, not to {0}")]
-    Parameter(f64),
-    /// The place where the kept node would go is no finite number.
-    #[error("the kept node of edge {edge} of surface {surface} would go to {position}, which is not finite")]
-    NotFinite {
-        /// Surface.
-        surface: SurfaceId,
-        /// Edge.
-        edge: EdgeId,
-        /// The place.
-        position: DVec3,
-    },
-    /// Joints that do not run along the edge hold the node that would be removed.
-    #[error(
-        "node {removed} of surface {surface} is held by joints {joints:?}, which would lose it; keep it and remove node \
-         {kept} instead"
-    )]
-    HeldByJoints {
-        /// Surface.
-        surface: SurfaceId,
-        /// The node that would be removed.
-        removed: NodeId,
-        /// The other end.
-        kept: NodeId,
-        /// Joints at it.
-        joints: Vec<JointId>,
-    },
-    /// The same at both ends.
-    #[error(
-        "both ends of edge {edge} of surface {surface} are held by joints {joints:?} that do not run along it; take one \
-         end off its joints first"
-    )]
-    BothHeld {
-        /// Surface.
-        surface: SurfaceId,
-        /// Edge.
-        edge: EdgeId,
-        /// Joints at the ends.
-        joints: Vec<JointId>,
-    },
-    /// The joint would have too few edges left.
-    #[error(
-        "joint {joint} has {edges} edges; an open joint keeps one at least, a closed one three. Split one of its edges \
-         first, or remove the joint"
-    )]
-    JointTooShort {
-        /// Joint.
-        joint: JointId,
-        /// Edges that it has.
-        edges: usize,
-    },
-    /// The boundary loop would have too few edges left.
-    #[error(
-        "the boundary loop of surface {surface} at edge {edge} has {edges} edges and needs three; fill it or split one"
-    )]
-    LoopTooShort {
-        /// Surface.
-        surface: SurfaceId,
-        /// Edge.
-        edge: EdgeId,
-        /// Edges that it has.
-        edges: usize,
-    },
-    /// The body's shape would change.
-    #[error(
-        "edge {edge} of surface {surface} cannot be collapsed without changing the shape: {obstacle}; split or swap edges near it first"
-    )]
-    Shape {
-        /// Surface.
-        surface: SurfaceId,
-        /// Edge.
-        edge: EdgeId,
-        /// What is in the way.
-        obstacle: Obstacle,
-    },
-    /// A face would be turned over or degenerate.
-    #[error("collapsing edge {edge} would turn face {face} of surface {surface} over or flatten it")]
-    Turns {
-        /// Surface of the face.
-        surface: SurfaceId,
-        /// Edge.
-        edge: EdgeId,
-        /// Face.
-        face: FaceId,
-    },
-    /// An attribute line would no longer lie on the surface.
-    #[error(
-        "edge {edge} of surface {surface} carries attributes that collapsing would tear; triangulate them into edges first"
-    )]
-    CarriesAttributes {
-        /// Surface.
-        surface: SurfaceId,
-        /// Edge.
-        edge: EdgeId,
-    },
 }
 
 /// What was collapsed in one surface. All but what was kept are free numbers now.
@@ -180,118 +65,6 @@ pub struct EdgeCollapse {
     pub edge: CollapsedEdge,
     /// Its partners on the joint, in order of surfaces and edges.
     pub partners: Vec<CollapsedEdge>,
-}
-
-/// What is needed to collapse one edge, and to take it back.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Collapse {
-    pub(super) surface: SurfaceId,
-    pub(super) edge: EdgeId,
-    /// As it was asked for.
-    at: Option<f64>,
-    kept: u32,
-    removed: u32,
-    ends: [u32; 2],
-    edge_faces: [u32; 2],
-    /// Left and right.
-    faces: [Option<Gone>; 2],
-    /// Edges of the removed node that stay, with their other ends.
-    spokes: Vec<[u32; 2]>,
-    /// Faces of the removed node that stay.
-    fan: Vec<u32>,
-    /// The removed node.
-    node: Layers,
-    /// Places on the pattern: of the removed node, of the kept one, and where that goes.
-    planar: [DVec2; 3],
-    /// Nodes that move, with their old places, and where they go.
-    moved: Vec<(Place, Layers)>,
-    to: Layers,
-    /// Before, where a chain is touched.
-    loops: Option<Loops>,
-    /// Whether the loops are to be found anew.
-    unsettled: bool,
-    attributes: Option<Attributes>,
-    /// An edge that stays, by the end that will be the kept node, for attributes of the edge that goes.
-    host: EndOf,
-}
-
-impl Collapse {
-    /// The operator that was asked for; its guard has been passed.
-    pub(super) fn operation(&self) -> Operation {
-        let (surface, edge, keep) = (self.surface, self.edge, NodeId(self.kept));
-        Operation::CollapseEdge { surface, edge, keep, at: self.at, guard: Guard::None }
-    }
-}
-
-/// Positions of a node in space.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Layers {
-    position: DVec3,
-    backup: DVec3,
-}
-
-impl Layers {
-    fn of(s: &Surface, v: u32) -> Self {
-        let backup = s.backup.get(v as usize).copied().unwrap_or_default();
-        Self { position: s.positions[v as usize], backup }
-    }
-
-    fn put(self, s: &mut Surface, v: u32) {
-        s.positions[v as usize] = self.position;
-        if let Some(backup) = s.backup.get_mut(v as usize) {
-            *backup = self.backup;
-        }
-    }
-}
-
-/// A face at the edge.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Gone {
-    face: u32,
-    corners: [u32; 3],
-    sides: [u32; 3],
-    /// The side at the removed node, its ends and faces.
-    side: u32,
-    side_ends: [u32; 2],
-    side_faces: [u32; 2],
-    /// The side at the kept node, and which of its faces this is.
-    into: u32,
-    slot: usize,
-    /// The face beyond the side at the removed node.
-    outer: u32,
-    tip: u32,
-}
-
-impl Gone {
-    fn of(s: &Surface, face: u32, edge: u32, removed: u32) -> Self {
-        let (corners, sides) = (s.faces[face as usize], s.face_edges[face as usize]);
-        // The edge runs from corner i to the next.
-        let i = if sides[0] == edge { 0 } else { 1 + usize::from(sides[1] != edge) };
-        let (side, into) = if corners[i] == removed {
-            (sides[LAST[i]], sides[NEXT[i]])
-        } else {
-            (sides[NEXT[i]], sides[LAST[i]])
-        };
-        let side_faces = s.edge_faces[side as usize];
-        Self {
-            face,
-            corners,
-            sides,
-            side,
-            side_ends: s.edges[side as usize],
-            side_faces,
-            into,
-            slot: usize::from(s.edge_faces[into as usize][0] != face),
-            outer: side_faces[0] ^ side_faces[1] ^ face,
-            tip: corners[LAST[i]],
-        }
-    }
-
-    fn for_attributes(&self) -> GoneFace {
-        let tip_corner =
-            usize::from(self.corners[0] != self.tip) * (1 + usize::from(self.corners[1] != self.tip));
-        GoneFace { face: self.face, tip_corner, tip: self.tip, side: self.side, into: self.into }
-    }
 }
 
 impl Editor {
@@ -602,168 +375,6 @@ impl Editor {
             sides: faces.map(|g| g.map(|g| [EdgeId(g.side), EdgeId(g.into)])),
         }
     }
-
-    pub(super) fn do_collapse(&mut self, c: &Collapse) {
-        let mut stars = self.stars[c.surface.index()].as_mut();
-        let s = &mut self.body.surfaces[c.surface.index()];
-        let mut around = Vec::new();
-        if let Some(stars) = &mut stars
-            && stars.knows_singular()
-        {
-            stars.edges_at(s, c.kept, &mut around);
-        }
-        if c.attributes.is_some() {
-            let gone: Vec<GoneFace> = c.faces.iter().flatten().map(Gone::for_attributes).collect();
-            carry_collapse(s, c.edge.0, c.host, &gone);
-        }
-        for &f in &c.fan {
-            let i = corner(s, f, c.removed);
-            s.faces[f as usize][i] = c.kept;
-        }
-        for &[e, _] in &c.spokes {
-            let ends = &mut s.edges[e as usize];
-            ends[usize::from(ends[0] != c.removed)] = c.kept;
-        }
-        if c.loops.is_some() {
-            draw_chains(s, c);
-        }
-        for g in c.faces.iter().flatten() {
-            s.edge_faces[g.into as usize][g.slot] = g.outer;
-            if g.outer != NONE {
-                let i = place(s, g.outer, g.side);
-                s.face_edges[g.outer as usize][i] = g.into;
-            }
-        }
-        for g in c.faces.iter().flatten() {
-            release_face(s, g.face);
-        }
-        release_edge(s, c.edge.0);
-        for g in c.faces.iter().flatten() {
-            release_edge(s, g.side);
-        }
-        release_node(s, c.removed);
-        if let Some(planar) = s.planar.get_mut(c.kept as usize) {
-            *planar = c.planar[2];
-        }
-        if c.unsettled {
-            rebuild(s);
-        }
-        if let Some(stars) = stars {
-            for &[e, far] in &c.spokes {
-                stars.exchange(far, (e, c.removed), (e, c.kept));
-            }
-            for g in c.faces.iter().flatten() {
-                stars.lose(g.tip, g.side, c.removed, g.into);
-            }
-            stars.remove(c.removed);
-            if stars.knows_singular() {
-                around.retain(|&e| e != c.edge.0);
-                around.extend(c.spokes.iter().map(|s| s[0]));
-                let held = stars.is_held(c.kept);
-                stars.recount(s, c.kept, &around, held);
-            } else {
-                let other =
-                    c.faces.iter().flatten().map(|g| g.into).chain(c.spokes.iter().map(|s| s[0])).next();
-                // A wire's free end: what is left at the kept node is not at hand.
-                let other =
-                    other.or_else(|| s.edges.iter().position(|x| x.contains(&c.kept)).map(|e| e as u32));
-                stars.lose(c.kept, c.edge.0, c.removed, other.unwrap_or(NONE));
-                for &[e, far] in &c.spokes {
-                    stars.gain(c.kept, e, far);
-                }
-            }
-        }
-        for ((t, v), _) in &c.moved {
-            c.to.put(&mut self.body.surfaces[t.index()], *v);
-        }
-    }
-
-    pub(super) fn undo_collapse(&mut self, c: &Collapse) {
-        let mut stars = self.stars[c.surface.index()].as_mut();
-        for ((t, v), old) in &c.moved {
-            old.put(&mut self.body.surfaces[t.index()], *v);
-        }
-        let s = &mut self.body.surfaces[c.surface.index()];
-        let mut around = Vec::new();
-        if let Some(stars) = &mut stars {
-            stars.edges_at(s, c.kept, &mut around);
-        }
-        s.slots.nodes.take();
-        for g in c.faces.iter().rev().flatten() {
-            s.slots.edges.take();
-            s.edges[g.side as usize] = g.side_ends;
-            s.edge_faces[g.side as usize] = g.side_faces;
-        }
-        s.slots.edges.take();
-        s.edges[c.edge.index()] = c.ends;
-        s.edge_faces[c.edge.index()] = c.edge_faces;
-        for g in c.faces.iter().rev().flatten() {
-            s.slots.faces.take();
-            (s.faces[g.face as usize], s.face_edges[g.face as usize]) = (g.corners, g.sides);
-            s.edge_faces[g.into as usize][g.slot] = g.face;
-            if g.outer != NONE {
-                let i = place(s, g.outer, g.into);
-                s.face_edges[g.outer as usize][i] = g.side;
-            }
-        }
-        for &f in &c.fan {
-            let i = corner(s, f, c.kept);
-            s.faces[f as usize][i] = c.removed;
-        }
-        for &[e, _] in &c.spokes {
-            let ends = &mut s.edges[e as usize];
-            ends[usize::from(ends[0] != c.kept)] = c.removed;
-        }
-        c.node.put(s, c.removed);
-        if !s.planar.is_empty() {
-            s.planar[c.removed as usize] = c.planar[0];
-            s.planar[c.kept as usize] = c.planar[1];
-        }
-        if let Some(loops) = &c.loops {
-            loops.restore(s);
-        }
-        if let Some(before) = &c.attributes {
-            before.restore(s);
-        }
-        if let Some(stars) = stars {
-            for &[e, far] in &c.spokes {
-                stars.exchange(far, (e, c.kept), (e, c.removed));
-            }
-            let mut own: Vec<u32> = c.spokes.iter().map(|s| s[0]).collect();
-            around.retain(|e| !own.contains(e));
-            around.push(c.edge.0);
-            own.push(c.edge.0);
-            for g in c.faces.iter().flatten() {
-                stars.gain(g.tip, g.side, c.removed);
-                own.push(g.side);
-            }
-            let joint = |&e: &u32| s.edge_chain(EdgeId(e)).is_some_and(|c| s.chain(c).joint.is_some());
-            stars.recount(s, c.removed, &own, own.iter().any(joint));
-            let held = stars.is_held(c.kept);
-            stars.recount(s, c.kept, &around, held);
-        }
-    }
-}
-
-/// An edge that stays at the kept node: the side of a face that goes, else an edge of the removed node, else any.
-fn host(
-    faces: &[Option<Gone>; 2],
-    spokes: &[[u32; 2]],
-    s: &Surface,
-    kept: u32,
-    removed: u32,
-    edge: u32,
-) -> EndOf {
-    if s.attribute_nodes.is_empty() {
-        return EndOf { edge, node: kept };
-    }
-    let side = faces.iter().flatten().map(|g| EndOf { edge: g.into, node: kept }).next();
-    let spoke = || spokes.first().map(|&[edge, _]| EndOf { edge, node: removed });
-    let other = || {
-        let at_kept = s.edges.iter().zip(0..).find(|(ends, e)| *e != edge && ends.contains(&kept));
-        at_kept.map(|(_, edge)| EndOf { edge, node: kept })
-    };
-    side.or_else(spoke).or_else(other).unwrap_or(EndOf { edge, node: kept })
 }
 
 /// One of the edges that collapse together.
@@ -786,12 +397,6 @@ fn faces_at<'a>(s: &'a Surface, edges: &'a [u32], node: u32) -> impl Iterator<It
         .iter()
         .map(move |&e| s.edge_faces[e as usize][usize::from(s.edges[e as usize][0] != node)])
         .filter(|f| *f != NONE)
-}
-
-/// The side of a face that an edge is.
-fn place(s: &Surface, face: u32, edge: u32) -> usize {
-    let [x, y, _] = s.face_edges[face as usize];
-    if x == edge { 0 } else { 1 + usize::from(y != edge) }
 }
 
 /// A computed sine of an angle above this is certainly not zero.
@@ -852,47 +457,4 @@ fn plain_obstacle(
         return Some(Some(Obstacle::FacesMeet { faces }));
     }
     Some(None)
-}
-
-/// Whether the loops have to be found anew: an edge that starts one goes, or another one comes before it.
-fn unsettles(s: &Surface, edge: EdgeId, faces: &[Option<Gone>; 2]) -> bool {
-    let of = |e: EdgeId| s.edge_chain(e).and_then(|c| s.chain(c).on_loop);
-    let gone = std::iter::once((edge, NONE))
-        .chain(faces.iter().flatten().map(|g| (EdgeId(g.side), g.into)))
-        .filter_map(|(e, into)| Some((e, into, of(e)?)));
-    for (e, into, l) in gone {
-        // Only loops of one chain are looked at: cuts at joints may begin elsewhere too.
-        if lowest_of_whole(s, l).is_none_or(|lowest| e == lowest || into < lowest.0) {
-            return true;
-        }
-    }
-    false
-}
-
-/// Chains follow: they lose the edge, go over sides at the kept node, and start there.
-fn draw_chains(s: &mut Surface, c: &Collapse) {
-    let on = |s: &Surface, e: u32| s.edge_chain(EdgeId(e));
-    for e in c.spokes.iter().map(|s| s[0]).chain([c.edge.0]).chain(c.faces.iter().flatten().map(|g| g.side)) {
-        if let Some(chain) = on(s, e) {
-            let start = &mut s.chains[chain.index()].start;
-            if start.0 == c.removed {
-                *start = NodeId(c.kept);
-            }
-        }
-    }
-    for g in c.faces.iter().flatten() {
-        let Some(chain) = on(s, g.side) else { continue };
-        let outward = g.side_ends[0] == c.removed;
-        let into_outward = s.edges[g.into as usize][0] == c.kept;
-        s.edge_chain[g.into as usize] = s.edge_chain[g.side as usize];
-        for d in s.chains[chain.index()].edges.iter_mut().filter(|d| d.edge().0 == g.side) {
-            *d = DirectedEdge::new(EdgeId(g.into), d.is_reversed() != (outward != into_outward));
-        }
-    }
-    if let Some(chain) = on(s, c.edge.0) {
-        let edges = &mut s.chains[chain.index()].edges;
-        if let Some(k) = edges.iter().position(|d| d.edge() == c.edge) {
-            edges.remove(k);
-        }
-    }
 }
