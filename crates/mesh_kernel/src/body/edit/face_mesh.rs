@@ -1,7 +1,7 @@
 //! One triangle cut along points and lines in it: a constrained Delaunay triangulation in the triangle's own plane.
 
 use glam::{DVec2, DVec3};
-use spade::handles::FixedVertexHandle;
+use robust::{Coord, orient2d};
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};
 
 /// What a face is cut along. Its *local points* are numbered: corners 0, 1, 2, then the points on side 0, side 1,
@@ -48,6 +48,9 @@ fn flat(corners: [DVec3; 3]) -> [DVec2; 3] {
         EQUILATERAL
     }
 }
+
+/// Points of the flattened face nearer than this, its longest side being 1, are one.
+const SAME_PLACE: f64 = 1e-9;
 
 #[derive(Clone, Copy, Debug)]
 struct Vertex {
@@ -115,10 +118,16 @@ impl FaceInput {
         let flat = flat(corners);
         let mut points = self.points();
         let boundary = points.len() - self.inner.len();
+        let mut places: Vec<DVec2> =
+            points.iter().map(|w| flat[0] * w[0] + flat[1] * w[1] + flat[2] * w[2]).collect();
+        // Crossings first: constraints that cross each other are nothing for the triangulation.
+        let paths = part_lines(&mut places, &self.lines);
+        for &p in &places[points.len()..] {
+            points.push(areal(flat, p)?);
+        }
         let mut mesh: ConstrainedDelaunayTriangulation<Vertex> = ConstrainedDelaunayTriangulation::new();
-        let mut handles = Vec::with_capacity(points.len());
-        for (k, w) in points.iter().enumerate() {
-            let p = flat[0] * w[0] + flat[1] * w[1] + flat[2] * w[2];
+        let mut handles = Vec::with_capacity(places.len());
+        for (k, p) in places.iter().enumerate() {
             let handle = mesh.insert(Vertex { at: Point2::new(p.x, p.y) }).ok()?;
             // A point that falls on another would shift all numbers behind it.
             if handle.index() != k {
@@ -126,51 +135,19 @@ impl FaceInput {
             }
             handles.push(handle);
         }
-        let mut first = 3;
-        for (i, side) in self.sides.iter().enumerate() {
-            let mut run = vec![i];
-            run.extend(first..first + side.len());
-            run.push((i + 1) % 3);
-            first += side.len();
+        let outline = (0..3).map(|i| self.side_points(i));
+        for run in outline.chain(paths.iter().cloned()) {
             for pair in run.windows(2) {
-                if !mesh.can_add_constraint(handles[pair[0]], handles[pair[1]]) {
+                let [from, to] = [pair[0], pair[1]].map(|v| handles[v as usize]);
+                if mesh.get_edge_from_neighbors(from, to).is_none() && !mesh.can_add_constraint(from, to) {
                     return None;
                 }
-                mesh.add_constraint(handles[pair[0]], handles[pair[1]]);
-            }
-        }
-        let mut paths = Vec::with_capacity(self.lines.len());
-        for &[from, to] in &self.lines {
-            let edges = mesh
-                .add_constraint_and_split(handles[from as usize], handles[to as usize], |at| Vertex { at });
-            let mut path = vec![from];
-            path.extend(edges.iter().map(|&e| mesh.directed_edge(e).to().fix().index() as u32));
-            if path.last() != Some(&to) {
-                return None;
-            }
-            paths.push(path);
-        }
-        // A later line may have put a point on an earlier one.
-        let known = points.len() as u32..mesh.num_vertices() as u32;
-        let held = |a: u32, b: u32| {
-            let [a, b] = [a, b].map(|v| FixedVertexHandle::from_index(v as usize));
-            mesh.get_edge_from_neighbors(a, b).is_some_and(|e| e.is_constraint_edge())
-        };
-        for path in &mut paths {
-            let mut k = 0;
-            while k + 1 < path.len() {
-                let [a, b] = [path[k], path[k + 1]];
-                if held(a, b) {
-                    k += 1;
-                    continue;
+                mesh.add_constraint(from, to);
+                // A point that rounding has put upon the line would have parted it.
+                if mesh.get_edge_from_neighbors(from, to).is_none() {
+                    return None;
                 }
-                let between = known.clone().find(|&x| !path.contains(&x) && held(a, x))?;
-                path.insert(k + 1, between);
             }
-        }
-        for v in mesh.vertices().skip(points.len()) {
-            let p = v.position();
-            points.push(areal(flat, DVec2::new(p.x, p.y))?);
         }
         let mut triangles = Vec::new();
         for face in mesh.inner_faces() {
@@ -187,6 +164,57 @@ impl FaceInput {
         let inner = points.len() - boundary;
         (triangles.len() == boundary - 2 + 2 * inner).then_some(FaceMesh { points, triangles, paths })
     }
+}
+
+/// Lines cut where they cross each other or pass a point. New points come behind the given ones; every line becomes the
+/// points on it, its ends included. O(lines² + lines · points).
+fn part_lines(places: &mut Vec<DVec2>, lines: &[[u32; 2]]) -> Vec<Vec<u32>> {
+    let given = places.len();
+    let mut on: Vec<Vec<(f64, u32)>> = lines.iter().map(|&[a, b]| vec![(0.0, a), (1.0, b)]).collect();
+    let ends = |places: &[DVec2], l: usize| lines[l].map(|v| places[v as usize]);
+    for (l, on) in on.iter_mut().enumerate() {
+        let [a, b] = ends(places, l);
+        for (v, &p) in places.iter().enumerate().take(given) {
+            let t = (p - a).dot(b - a) / (b - a).length_squared();
+            let beside = p.distance(a.lerp(b, t));
+            if !lines[l].contains(&(v as u32)) && (0.0..=1.0).contains(&t) && beside <= SAME_PLACE {
+                on.push((t, v as u32));
+            }
+        }
+    }
+    for l in 0..lines.len() {
+        for m in 0..l {
+            if lines[l].iter().any(|v| lines[m].contains(v)) {
+                continue;
+            }
+            let ([a, b], [c, d]) = (ends(places, l), ends(places, m));
+            let turn = |p: DVec2, q: DVec2, r: DVec2| {
+                let [p, q, r] = [p, q, r].map(|p| Coord { x: p.x, y: p.y });
+                orient2d(p, q, r)
+            };
+            let (from, to) = (turn(c, d, a), turn(c, d, b));
+            if from * to >= 0.0 || turn(a, b, c) * turn(a, b, d) >= 0.0 {
+                continue;
+            }
+            let x = a.lerp(b, from / (from - to));
+            let known = places.iter().position(|p| p.distance(x) <= SAME_PLACE);
+            let v = known.unwrap_or_else(|| {
+                places.push(x);
+                places.len() - 1
+            }) as u32;
+            for (k, p, q) in [(l, a, b), (m, c, d)] {
+                if on[k].iter().all(|&(_, w)| w != v) {
+                    on[k].push(((x - p).dot(q - p) / (q - p).length_squared(), v));
+                }
+            }
+        }
+    }
+    on.into_iter()
+        .map(|mut on| {
+            on.sort_by(|a, b| a.0.total_cmp(&b.0));
+            on.into_iter().map(|(_, v)| v).collect()
+        })
+        .collect()
 }
 
 /// The same triangle with its lowest corner first.
