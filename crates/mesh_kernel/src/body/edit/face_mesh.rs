@@ -144,9 +144,7 @@ impl FaceInput {
                 }
                 mesh.add_constraint(from, to);
                 // A point that rounding has put upon the line would have parted it.
-                if mesh.get_edge_from_neighbors(from, to).is_none() {
-                    return None;
-                }
+                mesh.get_edge_from_neighbors(from, to)?;
             }
         }
         let mut triangles = Vec::new();
