@@ -10,6 +10,7 @@
 pub mod body;
 pub mod complex;
 pub mod files;
+pub mod merge;
 pub mod query;
 pub mod tri_mesh;
 
