@@ -77,7 +77,10 @@ fn trouble(seed: u64) -> Option<String> {
             Err(e) => return Some(format!("{seed} {operation:?}: {e}")),
             Ok(solid) => {
                 if let Some(fault) = fault(&solid.mesh) {
-                    return Some(format!("{seed} {operation:?}: {fault}"));
+                    let (beads, doubled) = (solid.beads, solid.doubled_nodes);
+                    return Some(format!(
+                        "{seed} {operation:?}: {fault}; {beads} beads, {doubled} nodes doubled"
+                    ));
                 }
                 volumes[k] = solid.volume();
             }

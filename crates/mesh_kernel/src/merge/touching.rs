@@ -3,7 +3,9 @@
 //! Where two walls meet in an edge only, more than two faces are at it, and no file tells which belong together. *Touch and
 //! join* (Stroud & Nagy 2011, figs. 6.6–6.8) is what holds in a print: a bead about the edge, too small to be seen, is
 //! united with the solid. Where walls part so slowly that a bead only moves the place, the parts *touch but miss*: each
-//! gets nodes of its own there.
+//! gets nodes of its own there, a little withdrawn.
+
+use std::collections::BTreeMap;
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -14,9 +16,13 @@ use super::{MergeError, MergeOptions, merge_nodes};
 use crate::TriMesh;
 use crate::body::radial::radial_order;
 use crate::body::weld::UnionFind;
+use crate::query::Crossings;
 
 /// Radii of beads to be tried, as powers of two of the boundary's half size.
 const BEADS: [i32; 3] = [-17, -14, -11];
+
+/// How far nodes that touch are moved towards their neighbours, as powers of two of the way.
+const WITHDRAWALS: [i32; 3] = [-16, -11, -6];
 
 /// Where a boundary is no two-manifold.
 #[derive(Default)]
@@ -54,13 +60,49 @@ pub(super) fn join(
         let (chain, parents) = with_beads(boundary, touches, radius);
         match merge_nodes(chain, &parents, grid, options) {
             Ok(joined) => *boundary = joined,
-            Err(MergeError::Tangled { .. }) => break,
+            Err(MergeError::Tangled { .. }) => continue,
             Err(error) => return Err(error),
         }
         joins.beads += count;
     }
     joins.doubled = part(boundary);
+    withdraw(boundary);
     Ok(joins)
+}
+
+/// Moves nodes that stand in one place into the parts that they belong to, by the least of some steps after which nothing
+/// touches; leaves them where they are if none does.
+fn withdraw(boundary: &mut Boundary) {
+    let mut order: Vec<u32> = (0..boundary.nodes.len() as u32).collect();
+    let place = |v: u32| boundary.nodes[v as usize].to_array().map(f64::to_bits);
+    order.sort_unstable_by_key(|&v| (place(v), v));
+    let mut link: BTreeMap<u32, (DVec3, f64)> = order
+        .chunk_by(|a, b| place(*a) == place(*b))
+        .filter(|group| group.len() > 1)
+        .flatten()
+        .map(|v| (*v, (DVec3::ZERO, 0.0)))
+        .collect();
+    for face in &boundary.faces {
+        for k in 0..3 {
+            if let Some((sum, count)) = link.get_mut(&face[k]) {
+                *sum +=
+                    boundary.nodes[face[(k + 1) % 3] as usize] + boundary.nodes[face[(k + 2) % 3] as usize];
+                *count += 2.0;
+            }
+        }
+    }
+    for exponent in WITHDRAWALS {
+        let mut moved = TriMesh::new(boundary.nodes.clone(), boundary.faces.clone());
+        for (&v, &(sum, count)) in &link {
+            let p = boundary.nodes[v as usize];
+            moved.positions[v as usize] =
+                p.lerp(sum / f64::max(count, 1.0), f64::from(exponent).exp2()).round();
+        }
+        if Crossings::new(&moved).self_crossing().is_empty() {
+            boundary.nodes = moved.positions;
+            return;
+        }
+    }
 }
 
 fn with_beads(boundary: &Boundary, touches: Touches, radius: f64) -> (TriMesh, Vec<u32>) {
