@@ -305,7 +305,7 @@ impl Unit {
 ///
 /// Example: toile thicken box.obj --thickness 2 --patch-thickness floor=4 --corners mitre -o box.obj
 ///
-/// Example: toile thicken out/dress/garment.obj --thickness 1.2 --side front -o dress.glb
+/// Example: toile thicken out/dress/garment.obj --thickness 1.2 -o dress.stl
 #[derive(Debug, Args)]
 #[command(verbatim_doc_comment)]
 pub(crate) struct Thicken {
