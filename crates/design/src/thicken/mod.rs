@@ -66,8 +66,7 @@ pub struct ThickenedFile {
 
 /// Makes a solid's file of a sheet whose coordinates are a file's, unit and all.
 ///
-/// The solid has the sheet's unit (GLB: metres, by its standard) and a group a [role](sheet::thicken::Role). Nodes at
-/// exactly the same place are one, since some formats cannot share them between groups.
+/// The solid has the sheet's unit (GLB: metres, by its standard) and a group a [role](sheet::thicken::Role).
 ///
 /// # Errors
 /// [`ThickenFileError`].
@@ -82,9 +81,8 @@ pub fn thicken(
         warnings.push(warning);
     }
     let unit = unit.millimetres;
-    let (mut mesh, node_of) = place::welded(sheet);
+    let (mut mesh, thickness) = settings.thickness.on(sheet)?;
     mesh.positions.iter_mut().for_each(|p| *p *= unit);
-    let thickness = settings.thickness.on(&mesh, &node_of)?;
     let mut options = ThickenOptions { thickness, side: settings.side, ..ThickenOptions::new(1.0) };
     options.corners = settings.corners;
     options.chord = settings.chord;

@@ -1,6 +1,4 @@
-//! Coordinates: of the sheet as the sheet room wants them, of the solid as the file holds them.
-
-use std::collections::HashMap;
+//! Coordinates of the solid as its file can hold them.
 
 use mesh_kernel::TriMesh;
 use mesh_kernel::files::Format;
@@ -21,25 +19,6 @@ impl Target {
     pub(super) fn unit_of_file(self) -> f64 {
         if self.format == Format::Glb { 1.0 } else { self.unit }
     }
-}
-
-/// The mesh with nodes at exactly the same place made one, and the new number of every old node.
-pub(super) fn welded(mesh: &TriMesh) -> (TriMesh, Vec<u32>) {
-    let mut known: HashMap<[u64; 3], u32> = HashMap::with_capacity(mesh.positions.len());
-    let mut positions = Vec::with_capacity(mesh.positions.len());
-    let node_of: Vec<u32> = mesh
-        .positions
-        .iter()
-        .map(|p| {
-            // Adding 0 makes one of the two zeros.
-            *known.entry(p.to_array().map(|x| (x + 0.0).to_bits())).or_insert_with(|| {
-                positions.push(*p);
-                positions.len() as u32 - 1
-            })
-        })
-        .collect();
-    let faces = mesh.faces.iter().map(|f| f.map(|v| node_of[v as usize])).collect();
-    (TriMesh { positions, faces, groups: mesh.groups.clone(), corner_uvs: None }, node_of)
 }
 
 /// A solid in millimetres as its file holds it, and the face that each of its faces was part of; `None` where they are
@@ -76,16 +55,6 @@ mod tests {
     fn tetrahedron() -> TriMesh {
         let positions = vec![DVec3::ZERO, DVec3::X * 10.1, DVec3::Y * 10.3, DVec3::Z * 10.7];
         TriMesh::new(positions, vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
-    }
-
-    #[test]
-    fn nodes_of_groups_that_do_not_share_them_become_one() {
-        let corner = |x: f64| DVec3::new(x, 0.0, -0.0);
-        let positions = vec![corner(0.0), DVec3::X, DVec3::Y, DVec3::ZERO, DVec3::Y, -DVec3::X];
-        let (mesh, node_of) = welded(&TriMesh::new(positions, vec![[0, 1, 2], [3, 4, 5]]));
-        assert_eq!(node_of, [0, 1, 2, 0, 2, 3]);
-        assert_eq!(mesh.faces, [[0, 1, 2], [0, 2, 3]]);
-        assert_eq!(mesh.positions.len(), 4);
     }
 
     #[test]

@@ -80,14 +80,17 @@ impl ThicknessWish {
         }
     }
 
-    /// What it means on a sheet whose file's nodes have become `node_of`.
-    pub(super) fn on(&self, sheet: &TriMesh, node_of: &[u32]) -> Result<Thickness, ThicknessError> {
+    /// What it means on a sheet. The sheet comes back as it is thickened: its patches have nodes of their own where that
+    /// lets the thickness step from one to the next.
+    pub(super) fn on(&self, sheet: &TriMesh) -> Result<(TriMesh, Thickness), ThicknessError> {
         match self {
             Self::Patches { elsewhere: Some(all), named } if named.is_empty() => {
-                Ok(Thickness::Constant(*all))
+                Ok((sheet.clone(), Thickness::Constant(*all)))
             }
-            Self::Patches { elsewhere, named } => by_name(sheet, *elsewhere, named),
-            Self::Listed(list) => by_list(sheet, node_of, list),
+            Self::Patches { elsewhere, named } => {
+                Ok((sheet.clone(), Thickness::PerPatch(by_name(sheet, *elsewhere, named)?)))
+            }
+            Self::Listed(list) => by_list(sheet, list),
         }
     }
 }
@@ -96,7 +99,7 @@ fn by_name(
     sheet: &TriMesh,
     elsewhere: Option<f64>,
     named: &[(String, f64)],
-) -> Result<Thickness, ThicknessError> {
+) -> Result<Vec<f64>, ThicknessError> {
     let names = patch_names(sheet);
     if let Some((name, _)) = named.iter().find(|(name, _)| !names.contains(name)) {
         let known = listed(&names);
@@ -106,62 +109,62 @@ fn by_name(
         let own = named.iter().rev().find(|(name, _)| name == patch).map(|(_, t)| *t);
         own.or(elsewhere).ok_or_else(|| ThicknessError::NotSaid { name: patch.clone() })
     };
-    let all = names.iter().map(of).collect::<Result<Vec<f64>, ThicknessError>>()?;
-    Ok(Thickness::PerPatch(all))
+    names.iter().map(of).collect()
 }
 
-fn by_list(sheet: &TriMesh, node_of: &[u32], list: &[f64]) -> Result<Thickness, ThicknessError> {
+fn by_list(sheet: &TriMesh, list: &[f64]) -> Result<(TriMesh, Thickness), ThicknessError> {
     if let Some(place) = list.iter().position(|t| !(t.is_finite() && *t > 0.0)) {
         return Err(ThicknessError::NotPositive { place: place + 1, value: list[place] });
     }
-    let (faces, nodes) = (sheet.faces.len(), node_of.len());
+    let (faces, nodes) = (sheet.faces.len(), sheet.positions.len());
     // Of a list that fits both, triangles are meant: such lists come with the sheets of solids.
     if list.len() == faces {
-        return Ok(per_patch(sheet, list).unwrap_or_else(|| per_node(sheet, list)));
-    }
-    if list.len() != nodes {
-        return Err(ThicknessError::ListLength { numbers: list.len(), faces, nodes });
-    }
-    let mut sums = vec![(0.0, 0.0); sheet.positions.len()];
-    for (&node, t) in node_of.iter().zip(list) {
-        add(&mut sums[node as usize], *t, 1.0);
-    }
-    Ok(Thickness::PerNode(means(&sums, list)))
-}
-
-/// One number a patch, where the list has the same for all triangles of it.
-fn per_patch(sheet: &TriMesh, list: &[f64]) -> Option<Thickness> {
-    let of = |faces: &std::ops::Range<u32>| {
-        let own = &list[faces.start as usize..faces.end as usize];
-        own.windows(2).all(|w| w[0] == w[1]).then(|| own.first().copied().unwrap_or(list[0]))
-    };
-    let ranges: Vec<std::ops::Range<u32>> = if sheet.groups.is_empty() {
-        vec![0..sheet.faces.len() as u32]
+        let parted = parted_by_patch(sheet);
+        let means = means_at_nodes(&parted, list);
+        Ok((parted, Thickness::PerNode(means)))
+    } else if list.len() == nodes {
+        Ok((sheet.clone(), Thickness::PerNode(list.to_vec())))
     } else {
-        sheet.groups.iter().map(|g| g.faces.clone()).collect()
-    };
-    ranges.iter().map(of).collect::<Option<Vec<f64>>>().map(Thickness::PerPatch)
+        Err(ThicknessError::ListLength { numbers: list.len(), faces, nodes })
+    }
 }
 
-/// Means over the triangles of every node, by area.
-fn per_node(sheet: &TriMesh, list: &[f64]) -> Thickness {
+/// The sheet with nodes of its own for every patch.
+fn parted_by_patch(sheet: &TriMesh) -> TriMesh {
+    const NONE: u32 = u32::MAX;
+    let mut parted = TriMesh { positions: Vec::with_capacity(sheet.positions.len()), ..sheet.clone() };
+    let mut patch_of_face = vec![0; sheet.faces.len()];
+    for (patch, group) in (1u32..).zip(&sheet.groups) {
+        patch_of_face[group.faces.start as usize..group.faces.end as usize].fill(patch);
+    }
+    // A patch's faces are in a row, so the last copy of a node is the right one or of another patch.
+    let mut copies = vec![(NONE, 0); sheet.positions.len()];
+    for (face, patch) in parted.faces.iter_mut().zip(patch_of_face) {
+        for v in face {
+            let copy = &mut copies[*v as usize];
+            if copy.0 != patch {
+                *copy = (patch, parted.positions.len() as u32);
+                parted.positions.push(sheet.positions[*v as usize]);
+            }
+            *v = copy.1;
+        }
+    }
+    parted
+}
+
+/// Means of the numbers of the triangles at every node, by area.
+fn means_at_nodes(sheet: &TriMesh, list: &[f64]) -> Vec<f64> {
     let mut sums = vec![(0.0, 0.0); sheet.positions.len()];
     for (f, (face, t)) in (0..).zip(sheet.faces.iter().zip(list)) {
-        let area = sheet.area_normal(f).length();
-        face.iter().for_each(|&v| add(&mut sums[v as usize], *t, area));
+        // Triangles without area are not thickened, but their nodes want a number too.
+        let area = sheet.area_normal(f).length().max(f64::MIN_POSITIVE);
+        for &v in face {
+            let (sum, weight) = &mut sums[v as usize];
+            *sum += t * area;
+            *weight += area;
+        }
     }
-    Thickness::PerNode(means(&sums, list))
-}
-
-fn add(sum: &mut (f64, f64), value: f64, weight: f64) {
-    sum.0 += value * weight;
-    sum.1 += weight;
-}
-
-/// Weighted means; nodes without a triangle get a thickness too, which nothing asks for.
-fn means(sums: &[(f64, f64)], list: &[f64]) -> Vec<f64> {
-    let any = list.first().copied().unwrap_or(1.0);
-    sums.iter().map(|(sum, weight)| if *weight > 0.0 { sum / weight } else { any }).collect()
+    sums.into_iter().map(|(sum, weight)| sum / weight).collect()
 }
 
 /// Names of the patches; the one of a sheet without groups is nameless.
@@ -200,7 +203,7 @@ mod tests {
     }
 
     fn on(wish: &ThicknessWish, sheet: &TriMesh) -> Result<Thickness, ThicknessError> {
-        wish.on(sheet, &(0..sheet.positions.len() as u32).collect::<Vec<_>>())
+        wish.on(sheet).map(|(_, thickness)| thickness)
     }
 
     #[test]
@@ -216,22 +219,24 @@ mod tests {
     }
 
     #[test]
-    fn a_list_a_triangle_is_a_step_between_patches_or_a_mean_inside_one() {
+    fn a_list_a_triangle_is_a_mean_inside_a_patch_and_a_step_between_two() {
         let wish = ThicknessWish::Listed(vec![1.0, 2.0]);
-        assert_eq!(on(&wish, &pair()), Ok(Thickness::PerPatch(vec![1.0, 2.0])));
+        let (parted, thickness) = wish.on(&pair()).unwrap();
+        assert_eq!(parted.faces, [[0, 1, 2], [3, 4, 5]]);
+        assert_eq!(
+            (0..2).map(|f| parted.corners(f)).collect::<Vec<_>>(),
+            [pair().corners(0), pair().corners(1)]
+        );
+        assert_eq!(thickness, Thickness::PerNode(vec![1.0, 1.0, 1.0, 2.0, 2.0, 2.0]));
         let one = TriMesh { groups: Vec::new(), ..pair() };
         // The lower triangle has three times the area.
         assert_eq!(on(&wish, &one), Ok(Thickness::PerNode(vec![1.75, 1.75, 1.0, 2.0])));
     }
 
     #[test]
-    fn a_list_a_node_follows_the_nodes_that_became_one() {
+    fn a_list_a_node_is_taken_as_it_is() {
         let wish = ThicknessWish::Listed(vec![1.0, 2.0, 3.0, 5.0]);
         assert_eq!(on(&wish, &pair()), Ok(Thickness::PerNode(vec![1.0, 2.0, 3.0, 5.0])));
-        let mut tip = pair();
-        tip.positions.pop();
-        tip.faces[1] = [1, 0, 2];
-        assert_eq!(wish.on(&tip, &[0, 1, 2, 2]), Ok(Thickness::PerNode(vec![1.0, 2.0, 4.0])));
     }
 
     #[test]
