@@ -1,4 +1,5 @@
 //! Booleans with known answers.
+#![allow(clippy::unwrap_used, reason = "a failed merge fails the test")]
 
 mod merge_support;
 
@@ -7,25 +8,24 @@ use mesh_kernel::TriMesh;
 use mesh_kernel::glam::DVec3;
 use mesh_kernel::merge::{Boolean, MergeOptions, boolean, solid_of_chain};
 
+#[track_caller]
 fn sound(models: &[&TriMesh], operation: Boolean) -> f64 {
     let solid = boolean(models, operation, &MergeOptions::default()).unwrap();
     assert_eq!(fault(&solid.mesh), None, "{operation:?}");
-    assert!((solid.volume() - volume(&solid.mesh)).abs() <= 1e-9 * solid.volume().abs());
+    let size: f64 = models.iter().map(|m| volume(m)).sum();
+    assert!((solid.volume() - volume(&solid.mesh)).abs() <= 1e-9 * size);
     solid.volume()
 }
 
-/// All four operations fit together.
-fn consistent(one: &TriMesh, other: &TriMesh) -> [f64; 4] {
+/// All operations fit together.
+fn consistent(one: &TriMesh, other: &TriMesh) -> [f64; 3] {
     let both = [one, other];
-    let [u, i, d, x] =
-        [Boolean::Union, Boolean::Intersection, Boolean::Difference, Boolean::SymmetricDifference]
-            .map(|o| sound(&both, o));
+    let [u, i, d] = [Boolean::Union, Boolean::Intersection, Boolean::Difference].map(|o| sound(&both, o));
     let (a, b) = (volume(one), volume(other));
-    let near = |x: f64, y: f64| assert!((x - y).abs() < 1e-6 * (a + b), "{x} {y}: {:?}", [u, i, d, x]);
+    let near = |x: f64, y: f64| assert!((x - y).abs() < 1e-6 * (a + b), "{x} {y}: {:?}", [u, i, d]);
     near(u + i, a + b);
     near(d + i, a);
-    near(x + 2.0 * i, a + b);
-    [u, i, d, x]
+    [u, i, d]
 }
 
 #[test]

@@ -34,20 +34,61 @@ pub(super) struct Parts {
 /// Cuts a face. `nodes` begins with the outline, anticlockwise, of `outline` nodes; `lines` are pairs of indices into it.
 /// O(n log n).
 pub(super) fn cut(nodes: &[Seen], outline: usize, lines: &[[u32; 2]]) -> Parts {
-    triangulate(nodes, outline, lines)
-        .unwrap_or_else(|| Parts { triangles: fan(nodes, outline), together: Vec::new() })
+    let mut parts = Parts::default();
+    for ring in simple_rings(nodes, outline) {
+        match triangulate(nodes, &ring, lines) {
+            Some(mut cut) => {
+                parts.triangles.append(&mut cut.triangles);
+                parts.together.append(&mut cut.together);
+            }
+            None => parts.triangles.extend(fan(nodes, &ring)),
+        }
+    }
+    parts
 }
 
-/// The fan over an outline from one of its nodes.
-pub(super) fn fan(nodes: &[Seen], outline: usize) -> Vec<[u32; 3]> {
-    let centre = nodes[0].node;
-    (1..outline - 1)
-        .map(|k| [centre, nodes[k].node, nodes[k + 1].node])
-        .filter(|t| super::complex::distinct(*t))
-        .collect()
+/// Fans over the outline of a face without area.
+pub(super) fn flat_parts(nodes: &[Seen], outline: usize) -> Parts {
+    let triangles = simple_rings(nodes, outline).iter().flat_map(|ring| fan(nodes, ring)).collect();
+    Parts { triangles, together: Vec::new() }
 }
 
-fn triangulate(nodes: &[Seen], outline: usize, lines: &[[u32; 2]]) -> Option<Parts> {
+/// An outline in rings that pass no node twice; where it runs back the way it came nothing is left.
+fn simple_rings(nodes: &[Seen], outline: usize) -> Vec<Vec<u32>> {
+    let mut rings = Vec::new();
+    let mut open: Vec<u32> = Vec::with_capacity(outline);
+    for i in 0..outline as u32 {
+        let node = nodes[i as usize].node;
+        if let Some(k) = open.iter().position(|&j| nodes[j as usize].node == node) {
+            let ring = open.split_off(k);
+            if ring.len() > 2 {
+                rings.push(ring);
+            }
+        }
+        open.push(i);
+    }
+    if open.len() > 2 {
+        rings.push(open);
+    }
+    rings
+}
+
+/// The fan over a ring from that of its nodes from which it covers least.
+fn fan(nodes: &[Seen], ring: &[u32]) -> Vec<[u32; 3]> {
+    let area = |[a, b, c]: [u32; 3]| {
+        let [a, b, c] = [a, b, c].map(|i| nodes[i as usize]);
+        ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)).abs()
+    };
+    let from = |start: usize| {
+        let at = move |k: usize| ring[(start + k) % ring.len()];
+        (1..ring.len() - 1).map(move |k| [at(0), at(k), at(k + 1)])
+    };
+    let covered = |start: usize| from(start).map(area).sum::<f64>();
+    let best = (0..ring.len()).min_by(|a, b| covered(*a).total_cmp(&covered(*b))).unwrap_or(0);
+    from(best).map(|t| t.map(|i| nodes[i as usize].node)).collect()
+}
+
+fn triangulate(nodes: &[Seen], ring: &[u32], lines: &[[u32; 2]]) -> Option<Parts> {
     let mut cdt = ConstrainedDelaunayTriangulation::<Seen>::new();
     let mut handles = Vec::with_capacity(nodes.len());
     let mut together = Vec::new();
@@ -64,9 +105,10 @@ fn triangulate(nodes: &[Seen], outline: usize, lines: &[[u32; 2]]) -> Option<Par
         }
         handles.push(handle);
     }
-    let mut border = Vec::with_capacity(outline);
-    for k in 0..outline {
-        let (a, b) = (handles[k], handles[(k + 1) % outline]);
+    let mut border = Vec::with_capacity(ring.len());
+    let mut run = Vec::with_capacity(ring.len());
+    for k in 0..ring.len() {
+        let [a, b] = [k, (k + 1) % ring.len()].map(|k| handles[ring[k] as usize]);
         if a == b {
             continue;
         }
@@ -77,6 +119,7 @@ fn triangulate(nodes: &[Seen], outline: usize, lines: &[[u32; 2]]) -> Option<Par
         // A node exactly on the outline that the outline does not know: its neighbour would not know it either.
         cdt.get_edge_from_neighbors(a, b)?;
         border.push((a.index().min(b.index()), a.index().max(b.index())));
+        run.push((a, b));
     }
     border.sort_unstable();
     if border.windows(2).any(|w| w[0] == w[1]) {
@@ -109,10 +152,25 @@ fn triangulate(nodes: &[Seen], outline: usize, lines: &[[u32; 2]]) -> Option<Par
             }
         }
     }
+    // The ring has to run round its inside, anticlockwise or, turned over by rounding, clockwise.
+    let inside = |left: bool| {
+        run.iter().all(|&(a, b)| {
+            cdt.get_edge_from_neighbors(a, b).is_some_and(|e| {
+                let outside =
+                    |e: spade::handles::DirectedEdgeHandle<'_, _, _, _, _>| outside[e.face().fix().index()];
+                outside(e) != left && outside(e.rev()) == left
+            })
+        })
+    };
+    let turned = !inside(true);
+    if turned && !inside(false) {
+        return None;
+    }
     let triangles = cdt
         .inner_faces()
         .filter(|f| !outside[f.fix().index()])
         .map(|f| f.vertices().map(|v| v.data().node))
+        .map(|[a, b, c]| if turned { [a, c, b] } else { [a, b, c] })
         .collect();
     Some(Parts { triangles, together })
 }

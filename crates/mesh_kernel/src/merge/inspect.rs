@@ -50,9 +50,6 @@ impl Fix {
 /// What is wrong with the lines of a face. O(n log n + pairs of lines whose boxes overlap).
 pub(super) fn inspect(view: &View, lines: &[Line], near: f64) -> Vec<Fix> {
     let mut fixes = Vec::new();
-    if lines.iter().all(|l| l.border) && view.seen.len() == lines.len() {
-        return fixes;
-    }
     let seen = &view.seen;
     let point = |i: u32| {
         let s = &seen[i as usize];

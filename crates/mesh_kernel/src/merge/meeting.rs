@@ -201,11 +201,31 @@ fn beside([a, b]: [DVec3; 2], p: DVec3) -> bool {
 /// Where a segment that has its ends on different sides of a face's plane pierces it; `up`: it comes from below.
 fn pierce(t: &Corners, [p, q]: [DVec3; 2], up: bool, near: f64) -> Where {
     let round = if up { 1.0 } else { -1.0 };
-    place([0, 1, 2].map(|k| {
+    let volumes = [0, 1, 2].map(|k| {
         let [a, b] = t.side(k);
-        let tolerance = if near > 0.0 { near * (q - p).cross(b - a).length() } else { 0.0 };
-        sign(round * volume(p, q, a, b), tolerance)
-    }))
+        round * volume(p, q, a, b)
+    });
+    if near == 0.0 {
+        return place(volumes.map(|v| sign(v, 0.0)));
+    }
+    // Distances of the lines from each other.
+    let off = [0, 1, 2].map(|k| {
+        let [a, b] = t.side(k);
+        volumes[k] / (q - p).cross(b - a).length()
+    });
+    match place(off.map(|d| sign(d, near))) {
+        // Between two sides of a sharp corner the corner itself may be far away.
+        Where::Node(corner) if !near_line([p, q], t.at[corner], 2.0 * near) => {
+            let sides = [corner, (corner + 2) % 3];
+            Where::Edge(if off[sides[0]].abs() <= off[sides[1]].abs() { sides[0] } else { sides[1] })
+        }
+        place => place,
+    }
+}
+
+/// Whether a point is within a distance of the line through two others.
+fn near_line([p, q]: [DVec3; 2], r: DVec3, distance: f64) -> bool {
+    (q - p).cross(r - p).length_squared() <= distance * distance * (q - p).length_squared()
 }
 
 /// Whether two segments in a plane cross, farther than `near` from their ends.

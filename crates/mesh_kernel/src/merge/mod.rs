@@ -201,8 +201,6 @@ pub enum Boolean {
     Intersection,
     /// What is inside the first and in no other.
     Difference,
-    /// What is inside an odd number of them.
-    SymmetricDifference,
 }
 
 /// A Boolean operation on closed models; a point is inside a model that winds about it at least once. O(n log n) in
@@ -224,7 +222,6 @@ pub fn boolean(
             Boolean::Union => w.iter().any(inside),
             Boolean::Intersection => w.iter().all(inside),
             Boolean::Difference => w.first().is_some_and(inside) && !w[1..].iter().any(inside),
-            Boolean::SymmetricDifference => w.iter().filter(|w| inside(w)).count() % 2 == 1,
         },
         options,
     )

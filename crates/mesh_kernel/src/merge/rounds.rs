@@ -16,20 +16,25 @@ use super::MergeError;
 use super::box_tree::BoxTree;
 use super::complex::{Complex, distinct};
 use super::curves::{Course, Curves, Placed};
-use super::cut_face::{Parts, Seen, cut, fan};
+use super::cut_face::{Parts, Seen, cut, flat_parts};
 use super::exact::{between, flat_area, plane_axes, volume};
 use super::inspect::{Fix, Line, inspect};
 use super::meeting::{Corners, Edge, Finding, Mark, Verdict, dominant_axis, edge, meet};
 use crate::body::weld::UnionFind;
 use crate::query::faces_meet_beyond_shared;
 
-/// How near things coincide, in cells, in the first rounds: what rounding the corners of two walls in one plane leaves
-/// between them.
-const NEAR: f64 = 2.0;
-/// Rounds before that distance is doubled, again and again, for knots that do not come apart.
-const PATIENCE: u32 = 4;
+/// How near things coincide in the first round, in cells: what rounding the corners of two walls in one plane leaves
+/// between them. Every further round, which only concerns what is still in a knot, takes twice the distance: what
+/// rounding by a cell turns over is not left at the size of a cell.
+const NEAR: f64 = 64.0;
+/// Rounds after which the distance stays: a million cells, 10⁻⁶ of the size.
+const MOST_DOUBLINGS: u32 = 19;
+/// A new node within this many times that distance of an old one is not made: the old one takes its place.
+const CAPTURE: f64 = 2.0;
+/// Edges that would cross farther than this many times that distance beyond the end of one do not cross.
+const OVERSHOOT: f64 = 4.0;
 /// Rounds after which a knot is reported.
-const MAX_ROUNDS: u32 = 48;
+const MAX_ROUNDS: u32 = 40;
 
 /// What resolving took.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -52,7 +57,7 @@ pub(super) fn resolve(
             return Err(MergeError::Cancelled);
         }
         let round = effort.rounds;
-        let near = NEAR * f64::from(1u32 << ((round / PATIENCE).min(20)));
+        let near = NEAR * f64::from(1u32 << round.min(MOST_DOUBLINGS));
         let findings = look(complex, &new, &mut layers, near, round == 0);
         if findings.is_empty() {
             return Ok(effort);
@@ -169,7 +174,10 @@ impl<'a> Round<'a> {
             Placed::Known => false,
             Placed::New => true,
             Placed::AtEnd(end) => {
-                self.together.push([end, node]);
+                let [p, q] = [end, node].map(|v| self.complex.at[v as usize]);
+                if p.distance(q) <= OVERSHOOT * self.near {
+                    self.together.push([end, node]);
+                }
                 false
             }
         }
@@ -188,11 +196,15 @@ impl<'a> Round<'a> {
             }
         }
         let complex = &*self.complex;
-        let places: Vec<Option<DVec3>> = marks.par_iter().map(|m| place_of(complex, *m)).collect();
+        let near = self.near;
+        let places: Vec<Option<DVec3>> = marks.par_iter().map(|m| place_of(complex, *m, near)).collect();
         for (mark, place) in marks.into_iter().zip(places) {
             let node = match (mark, place) {
                 (Mark::NodeOnEdge(node, _) | Mark::NodeOnFace(node, _) | Mark::Together(node, _), _) => node,
-                (_, Some(place)) => self.complex.node(place),
+                (_, Some(place)) => match self.captor(mark, place) {
+                    Some(node) => node,
+                    None => self.complex.node(place),
+                },
                 (_, None) => continue,
             };
             let node = self.rep(node);
@@ -210,6 +222,19 @@ impl<'a> Round<'a> {
                     self.cut(face).nodes.push(node);
                 }
             }
+        }
+    }
+
+    /// A node of what meets that is so near to the place where it does that it serves.
+    fn captor(&self, mark: Mark, place: DVec3) -> Option<u32> {
+        let radius = CAPTURE * self.near;
+        let near = |v: &u32| self.complex.at[*v as usize].distance_squared(place) <= radius * radius;
+        match mark {
+            Mark::EdgesCross(one, other) => one.into_iter().chain(other).find(near),
+            Mark::EdgeThroughFace(edge, face) => {
+                edge.into_iter().chain(self.complex.faces[face as usize].nodes).find(near)
+            }
+            _ => None,
         }
     }
 
@@ -435,7 +460,14 @@ impl<'a> Round<'a> {
                 None => outline.push((rep(a), course)),
             }
         }
-        outline.dedup_by_key(|o| o.0);
+        // Of places in a row with one node the last counts: the line that leads away from it is its line.
+        outline.dedup_by(|next, kept| {
+            let same = next.0 == kept.0;
+            if same {
+                kept.1 = next.1;
+            }
+            same
+        });
         while outline.len() > 1 && outline[0].0 == outline[outline.len() - 1].0 {
             outline.pop();
         }
@@ -546,7 +578,7 @@ struct Prepared {
 impl Prepared {
     fn cut(mut self) -> Parts {
         let Some(turned) = self.turned else {
-            return Parts { triangles: fan(&self.nodes.seen, self.outline), together: Vec::new() };
+            return flat_parts(&self.nodes.seen, self.outline);
         };
         if turned {
             // Seen in a mirror it is seen from the front.
@@ -577,7 +609,7 @@ fn adjacent(a: u32, b: u32, outline: u32) -> bool {
 }
 
 /// Where the node of a mark goes; `None` for marks of nodes that there are, and for edges that run alongside each other.
-fn place_of(complex: &Complex, mark: Mark) -> Option<DVec3> {
+fn place_of(complex: &Complex, mark: Mark, near: f64) -> Option<DVec3> {
     let at = |v: u32| complex.at[v as usize];
     match mark {
         Mark::EdgeThroughFace([p, q], face) => {
@@ -596,8 +628,10 @@ fn place_of(complex: &Complex, mark: Mark) -> Option<DVec3> {
             if n.signum() * m.signum() == -1 {
                 return Some(between(p, q, n, m));
             }
-            // They pass each other within a few cells, near the end of one.
-            Some(if n.unsigned_abs() < m.unsigned_abs() { p } else { q })
+            // They pass each other near the end of one.
+            let (end, n, m) = if n.unsigned_abs() < m.unsigned_abs() { (p, n, m) } else { (q, m, n) };
+            let overshot = n as f64 / (m as f64 - n as f64) * p.distance(q);
+            (overshot.abs() <= OVERSHOOT * near).then_some(end)
         }
         _ => None,
     }

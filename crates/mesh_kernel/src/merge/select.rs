@@ -26,8 +26,10 @@ pub struct Solid {
     pub parents: Vec<u32>,
     /// What was taken away.
     pub purged: Purged,
-    /// Places where parts only touched and were joined by a bead.
+    /// Edges and nodes where parts only touched and were joined by a bead.
     pub beads: usize,
+    /// Nodes that stand in the place of another, where parts touch and no bead could join them.
+    pub doubled_nodes: usize,
 }
 
 impl Solid {
@@ -43,14 +45,19 @@ impl Solid {
     }
 }
 
+/// A region thinner than this, in cells, is a film.
+const FILM: f64 = 1024.0;
+/// Part of a film's boundary that is its rim.
+const FEW: f64 = 0.05;
+
 impl Merged {
     /// The boundary of the regions about which the models wind as `wanted` likes it.
     ///
     /// Where the boundary touches itself in an edge or a node, so that it is no two-manifold there, a bead of some 10⁻⁵ of
-    /// the model's size joins what touches.
+    /// the model's size joins what touches; where that does not help each part gets nodes of its own there.
     ///
     /// # Errors
-    /// [`MergeError::Cancelled`], or [`MergeError::Tangled`] if beads do not help.
+    /// [`MergeError::Cancelled`].
     pub fn select(
         &self,
         regions: &Regions,
@@ -58,14 +65,21 @@ impl Merged {
         options: &MergeOptions<'_>,
     ) -> Result<Solid, MergeError> {
         let (mut boundary, purged) = self.boundary(regions, wanted);
-        let beads = touching::join(&mut boundary, self.grid, options)?;
+        let joins = touching::join(&mut boundary, self.grid, options)?;
         let positions = boundary.nodes.iter().map(|p| self.grid.place(*p)).collect();
-        Ok(Solid { mesh: TriMesh::new(positions, boundary.faces), parents: boundary.parents, purged, beads })
+        Ok(Solid {
+            mesh: TriMesh::new(positions, boundary.faces),
+            parents: boundary.parents,
+            purged,
+            beads: joins.beads,
+            doubled_nodes: joins.doubled,
+        })
     }
 
     /// The faces between wanted and unwanted regions, which may touch each other in edges and nodes.
     pub(super) fn boundary(&self, regions: &Regions, wanted: impl Fn(&[i32]) -> bool) -> (Boundary, Purged) {
-        let keep: Vec<bool> = (0..regions.count as u32).map(|r| wanted(regions.windings(r))).collect();
+        let mut keep: Vec<bool> = (0..regions.count as u32).map(|r| wanted(regions.windings(r))).collect();
+        self.drop_films(regions, &mut keep);
         let mut purged = Purged::default();
         let mut boundary = Boundary::default();
         let mut parents = Vec::new();
@@ -97,6 +111,37 @@ impl Merged {
         boundary.faces.iter_mut().for_each(|f| *f = f.map(|v| number[v as usize]));
         boundary.parents = parents;
         (boundary, purged)
+    }
+
+    /// Regions no thicker than rounding makes them, between walls that were meant to be one, count as what most of their
+    /// boundary borders on.
+    fn drop_films(&self, regions: &Regions, keep: &mut [bool]) {
+        let mut volume = vec![0.0; regions.count];
+        let mut area = vec![0.0; regions.count];
+        // Area towards wanted regions.
+        let mut towards = vec![0.0; regions.count];
+        for (face, [front, back]) in self.faces.iter().zip(&regions.sides) {
+            let [front, back] = [*front as usize, *back as usize];
+            if front == back {
+                continue;
+            }
+            let [a, b, c] = face.map(|v| self.nodes[v as usize]);
+            let six = a.cross(b).dot(c);
+            let face_area = (b - a).cross(c - a).length() / 2.0;
+            volume[back] += six / 6.0;
+            volume[front] -= six / 6.0;
+            for (region, other) in [(front, back), (back, front)] {
+                area[region] += face_area;
+                towards[region] += if keep[other] { face_area } else { 0.0 };
+            }
+        }
+        for r in 0..regions.count {
+            let thin = volume[r] >= 0.0 && 2.0 * volume[r] < FILM * area[r];
+            // A film between wanted and unwanted space may stay what it is.
+            if thin && (towards[r] < FEW * area[r] || towards[r] > (1.0 - FEW) * area[r]) {
+                keep[r] = towards[r] > 0.5 * area[r];
+            }
+        }
     }
 
     /// Edges without a face that stays.
