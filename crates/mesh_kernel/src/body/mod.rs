@@ -47,7 +47,7 @@ mod joint;
 mod mend_lines;
 mod mesh_joints;
 mod pairing;
-mod radial;
+pub(crate) mod radial;
 mod radial_order;
 mod regions;
 mod sectors;
@@ -55,7 +55,7 @@ mod shells;
 mod slots;
 mod split_all;
 mod surface;
-mod weld;
+pub(crate) mod weld;
 mod welded;
 
 pub use adjacency::EdgeIndex;

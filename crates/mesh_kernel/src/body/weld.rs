@@ -41,6 +41,21 @@ impl UnionFind {
         x
     }
 
+    /// How many members there are in all sets.
+    pub(crate) fn len(&self) -> usize {
+        self.parent.len()
+    }
+
+    /// What [`UnionFind::find`] says, without shortening ways; of a member that came later, itself.
+    pub(crate) fn rep(&self, mut x: u32) -> u32 {
+        while let Some(&up) = self.parent.get(x as usize)
+            && up != x
+        {
+            x = up;
+        }
+        x
+    }
+
     /// Joins the sets of both; `false` where they were one.
     pub(crate) fn union(&mut self, a: u32, b: u32) -> bool {
         let (a, b) = (self.find(a), self.find(b));

@@ -4,7 +4,7 @@ use glam::{DVec3, Vec4};
 use rayon::prelude::*;
 
 use super::bvh::{Bvh, Child};
-use super::triangle_pair::{triangles_meet, triangles_meet_beyond_corner, triangles_meet_beyond_side};
+use super::triangle_pair::{faces_meet_beyond_shared, triangles_meet};
 use crate::TriMesh;
 
 /// A mesh prepared for finding the faces of others that cross its own.
@@ -117,27 +117,7 @@ impl Crossings {
     }
 
     fn own_faces_meet(&self, f: u32, g: u32) -> bool {
-        let (one, other) = (self.faces[f as usize], self.faces[g as usize]);
         let at = |v: u32| self.positions[v as usize];
-        let is_shared = [0, 1, 2].map(|k| other.contains(&one[k]));
-        let is_shared_too = [0, 1, 2].map(|k| one.contains(&other[k]));
-        let count = |flags: [bool; 3]| flags.iter().filter(|flag| **flag).count();
-        // The corner number `k` places after the first whose flag is `flag`.
-        let find = |flags: [bool; 3], flag: bool| flags.iter().position(|f| *f == flag).unwrap_or(0);
-        let after = |face: [u32; 3], corner: usize, k: usize| at(face[(corner + k) % 3]);
-        match (count(is_shared), count(is_shared_too)) {
-            (0, 0) => triangles_meet(&self.corners(f), &self.corners(g)),
-            (1, 1) => {
-                let (i, k) = (find(is_shared, true), find(is_shared_too, true));
-                let rest = |face, corner| [after(face, corner, 1), after(face, corner, 2)];
-                triangles_meet_beyond_corner(at(one[i]), rest(one, i), rest(other, k))
-            }
-            (2, 2) => {
-                let (i, k) = (find(is_shared, false), find(is_shared_too, false));
-                triangles_meet_beyond_side([after(one, i, 1), after(one, i, 2)], at(one[i]), at(other[k]))
-            }
-            // A node twice in one face, or the same three nodes.
-            _ => true,
-        }
+        faces_meet_beyond_shared(self.faces[f as usize], self.faces[g as usize], at)
     }
 }

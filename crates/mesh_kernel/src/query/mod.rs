@@ -47,4 +47,5 @@ pub use geodesic::{Geodesics, SurfacePath, shortest_path};
 pub use hull::{convex_hull_in_plane, tape_length};
 pub use section::{SectionLoop, SectionStack, plane_section};
 pub use signed_distance::{Signed, SignedDistance};
+pub(crate) use triangle_pair::faces_meet_beyond_shared;
 pub use winding::{Winding, WindingNumber, winding_number};

@@ -47,14 +47,38 @@ pub(super) fn triangles_meet(one: &Triangle, other: &Triangle) -> bool {
     sides(other).iter().any(|s| segment_meets(*s, one)) || sides(one).iter().any(|s| segment_meets(*s, other))
 }
 
+/// Whether two faces have more in common than the nodes they share. Faces with the same three nodes, or with a node
+/// twice, have.
+pub(crate) fn faces_meet_beyond_shared(one: [u32; 3], other: [u32; 3], at: impl Fn(u32) -> DVec3) -> bool {
+    let is_shared = [0, 1, 2].map(|k| other.contains(&one[k]));
+    let is_shared_too = [0, 1, 2].map(|k| one.contains(&other[k]));
+    let count = |flags: [bool; 3]| flags.iter().filter(|flag| **flag).count();
+    // The corner number `k` places after the first whose flag is `flag`.
+    let find = |flags: [bool; 3], flag: bool| flags.iter().position(|f| *f == flag).unwrap_or(0);
+    let after = |face: [u32; 3], corner: usize, k: usize| at(face[(corner + k) % 3]);
+    match (count(is_shared), count(is_shared_too)) {
+        (0, 0) => triangles_meet(&one.map(&at), &other.map(&at)),
+        (1, 1) => {
+            let (i, k) = (find(is_shared, true), find(is_shared_too, true));
+            let rest = |face, corner| [after(face, corner, 1), after(face, corner, 2)];
+            triangles_meet_beyond_corner(at(one[i]), rest(one, i), rest(other, k))
+        }
+        (2, 2) => {
+            let (i, k) = (find(is_shared, false), find(is_shared_too, false));
+            triangles_meet_beyond_side([after(one, i, 1), after(one, i, 2)], at(one[i]), at(other[k]))
+        }
+        _ => true,
+    }
+}
+
 /// Whether two triangles with the common corner `shared` have another point in common; the arrays hold the others.
-pub(super) fn triangles_meet_beyond_corner(shared: DVec3, one: [DVec3; 2], other: [DVec3; 2]) -> bool {
+fn triangles_meet_beyond_corner(shared: DVec3, one: [DVec3; 2], other: [DVec3; 2]) -> bool {
     // Whatever else they share reaches the side across from the corner in one of the two.
     segment_meets(one, &[shared, other[0], other[1]]) || segment_meets(other, &[shared, one[0], one[1]])
 }
 
 /// Whether two triangles on the common side `shared` have a point in common off it: flat on each other.
-pub(super) fn triangles_meet_beyond_side(shared: [DVec3; 2], one: DVec3, other: DVec3) -> bool {
+fn triangles_meet_beyond_side(shared: [DVec3; 2], one: DVec3, other: DVec3) -> bool {
     if side(&[shared[0], shared[1], one], other) != Ordering::Equal {
         return false;
     }

@@ -1,0 +1,84 @@
+//! The grid on which everything is merged: whole numbers held in doubles.
+//!
+//! On a grid a node is at its place or it is not: what two formulae put at the same place is one node, differences of
+//! coordinates have no rounding, and determinants fit in 128 bits. The grid's cell is a power of two and its origin a
+//! multiple of the cell, so that every node is a double in the model's own coordinates too: nothing moves, and so nothing
+//! can come to cross, when the result is handed out.
+
+use glam::DVec3;
+
+/// Most bits of the grid: determinants of three differences then fit in 128 bits.
+pub const MAX_GRID_BITS: u32 = 40;
+
+/// Bits of a coordinate that a double holds, less one so that a place on the grid and the origin add up.
+const DOUBLE_BITS: i32 = 52;
+
+/// From model coordinates to whole numbers and back.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Grid {
+    cell: f64,
+    origin: DVec3,
+}
+
+impl Grid {
+    /// A grid of 2^`bits` cells over half the size of a box, cells never finer than doubles are there.
+    pub(super) fn over(lo: DVec3, hi: DVec3, bits: u32) -> Self {
+        let middle = lo + (hi - lo) / 2.0;
+        let half = ((hi - lo) / 2.0).max_element();
+        let farthest = lo.abs().max(hi.abs()).max_element();
+        let cell = power_above(half, bits as i32).max(power_above(farthest, DOUBLE_BITS));
+        Self { cell, origin: (middle / cell).round() * cell }
+    }
+
+    /// A grid about the origin whose every node is a number of `bits` binary digits.
+    pub(super) fn about_zero(farthest: f64, bits: u32) -> Self {
+        Self { cell: power_above(farthest, bits as i32), origin: DVec3::ZERO }
+    }
+
+    /// The nearest node of the grid.
+    #[inline]
+    pub(super) fn snap(&self, p: DVec3) -> DVec3 {
+        ((p - self.origin) / self.cell).round() + 0.0
+    }
+
+    /// The model's place of a node of the grid. Exact.
+    #[inline]
+    pub(super) fn place(&self, p: DVec3) -> DVec3 {
+        self.origin + p * self.cell
+    }
+}
+
+/// The least power of two not below `length` · 2^−`bits`; of a vanishing length the least normal number.
+fn power_above(length: f64, bits: i32) -> f64 {
+    let exponent = (length.log2().ceil() - f64::from(bits)).max(-1021.0);
+    if exponent.is_finite() { exponent.exp2() } else { f64::MIN_POSITIVE }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_exact_near_and_far() {
+        for far in [0.0, 1.0, 1e3, -1e6, 1e9] {
+            let lo = DVec3::splat(far) + DVec3::new(0.1, -3.7, 0.0);
+            let hi = lo + DVec3::new(100.0, 60.0, 1.0);
+            let grid = Grid::over(lo, hi, MAX_GRID_BITS);
+            let limit = (MAX_GRID_BITS as f64).exp2() + 1.0;
+            for p in [lo, hi, lo.lerp(hi, 0.3)] {
+                let node = grid.snap(p);
+                assert!(node.abs().max_element() <= limit);
+                assert_eq!(grid.snap(grid.place(node)), node);
+                assert!((grid.place(node) - p).abs().max_element() <= grid.cell);
+            }
+        }
+    }
+
+    #[test]
+    fn whole_millimetres_stay_where_they_are() {
+        let grid = Grid::over(DVec3::ZERO, DVec3::new(100.0, 60.0, 51.0), MAX_GRID_BITS);
+        for p in [DVec3::new(1.0, 0.5, 0.25), DVec3::new(50.0, 0.0, 51.0)] {
+            assert_eq!(grid.place(grid.snap(p)), p);
+        }
+    }
+}
