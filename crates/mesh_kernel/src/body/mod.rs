@@ -76,6 +76,7 @@ pub use joint::{Joint, JointUse, Sheet, Side};
 pub use pairing::{
     Contact, EdgePairings, Fan, FanKind, NodeFans, Pairing, PairingError, Resolution, Through,
 };
+pub use radial::order_about_edge;
 pub use regions::{FaceSide, FaceUse, Region, Regions};
 pub use sectors::{Crossing, EdgeSector, Sector};
 pub use split_all::{SplitError, SplitMap, SurfaceSplit};

@@ -119,6 +119,23 @@ pub(crate) fn radial_order(a: DVec3, b: DVec3, apexes: &[DVec3]) -> Option<Radia
     Some(Radial { order: order.into_iter().map(|(_, i)| i as u32).collect(), ranks })
 }
 
+/// The sheets about the axis `a` → `b` as the right hand turns, `apexes` being the third corners of their triangles;
+/// `None` where one of them, or the axis, is degenerate. Sheets that leave in the same direction keep their order.
+///
+/// Exact: only signs of determinants decide. O(k log k).
+///
+/// ```
+/// use mesh_kernel::body::order_about_edge;
+/// use mesh_kernel::glam::DVec3;
+///
+/// let apexes = [DVec3::X, DVec3::NEG_Y, DVec3::NEG_X, DVec3::Y];
+/// assert_eq!(order_about_edge(DVec3::ZERO, DVec3::Z, &apexes).unwrap(), [0, 3, 2, 1]);
+/// ```
+pub fn order_about_edge(a: DVec3, b: DVec3, apexes: &[DVec3]) -> Option<Vec<u32>> {
+    let radial = radial_order(a, b, apexes)?;
+    radial.ranks.iter().all(Option::is_some).then_some(radial.order)
+}
+
 /// Sheets in their order about an axis.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Radial {

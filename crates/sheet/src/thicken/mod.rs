@@ -1,14 +1,31 @@
 //! Thickening: a sheet, manifold or not, becomes a clean solid (Lee & Kim 2001, sections 4–6).
 
+mod arcs;
+mod chain;
+mod clean_sheet;
+mod disks;
+mod entities;
 mod error;
+mod half_prism;
+mod offset_point;
+mod offsets;
 mod options;
+mod orientation;
+mod polar_polygon;
 mod report;
+mod runs;
+mod sphere_patch;
+mod wedges;
 
+pub use chain::{OffsetChain, offset_chain};
 pub use error::ThickenError;
 pub use options::{Corners, Side, ThickenOptions, Thickness};
 pub use report::{Origin, Place, PlaceKind, Purged, Role, ThickenReport};
 
 use mesh_kernel::TriMesh;
+
+/// A thickness of more than this many times the sheet's diagonal is refused.
+pub const MAX_THICKNESS: f64 = 10.0;
 
 /// A thickened sheet.
 #[derive(Clone, Debug)]
