@@ -49,6 +49,7 @@ fn run(command: &Command, speech: &Speech) -> Result<(), Failure> {
         Command::Check(words) => commands::check::run(words, speech),
         Command::Info(words) => commands::info::run(words, speech),
         Command::Flatten(words) => commands::flatten::run(words, speech),
+        Command::Thicken(words) => commands::thicken::run(words, speech),
         Command::Render(words) => commands::render::run(words, speech),
     }
 }

@@ -46,6 +46,7 @@ pub(crate) enum Command {
     /// Example: toile info out/dress/garment.obj
     Info(Model),
     Flatten(Flatten),
+    Thicken(Thicken),
     Render(Render),
 }
 
@@ -292,6 +293,96 @@ impl Unit {
             Self::M => 1000.0,
             Self::Inch => 25.4,
         }
+    }
+}
+
+/// Make a solid of a sheet: walls, corners at folds, joints of any number of sheets, strips along free edges.
+///
+/// The solid is closed and does not cross itself: it can be printed. A group of the sheet is a patch; a group of the solid
+/// is a part of it (front_wall, back_wall, thickness_face, fill, corner). The solid has the sheet's unit; GLB is in metres.
+///
+/// Example: toile thicken bracket.obj --thickness 2 -o bracket.stl
+///
+/// Example: toile thicken box.obj --thickness 2 --patch-thickness floor=4 --corners mitre -o box.obj
+///
+/// Example: toile thicken out/dress/garment.obj --thickness 1.2 -o dress.stl
+#[derive(Debug, Args)]
+#[command(verbatim_doc_comment)]
+pub(crate) struct Thicken {
+    /// The sheet: OBJ, PLY, STL, OFF, GLB, or a native body (.body.json).
+    pub(crate) sheet: PathBuf,
+    /// How thick, in millimetres, whatever the sheet's unit.
+    #[arg(
+        long,
+        value_name = "MM",
+        value_parser = positive,
+        allow_hyphen_values = true,
+        required_unless_present_any = ["patch_thickness", "thickness_file"]
+    )]
+    pub(crate) thickness: Option<f64>,
+    /// Which side of the sheet gets material: half of it each, or all on the side from which its triangles are
+    /// anticlockwise (front), or on the other (back). One side needs a sheet without joints of three and more patches.
+    #[arg(long, value_enum, default_value_t = WallSide::Both)]
+    pub(crate) side: WallSide,
+    /// How the outer side of a fold is closed: by an arc, or by walls extended until they meet.
+    #[arg(long, value_enum, default_value_t = FoldCorners::Round)]
+    pub(crate) corners: FoldCorners,
+    /// Where to write the solid (OBJ, PLY, STL, OFF or GLB).
+    #[arg(short, long, value_name = "SOLID")]
+    pub(crate) output: PathBuf,
+    /// Another thickness for one patch, in millimetres; may be given again.
+    #[arg(long, value_name = "NAME=MM", value_parser = named_thickness, conflicts_with = "thickness_file")]
+    pub(crate) patch_thickness: Vec<(String, f64)>,
+    /// A JSON list of thicknesses in millimetres, one a triangle or one a node of the file: [2, 2.5, …].
+    #[arg(long, value_name = "FILE.json", conflicts_with = "thickness")]
+    pub(crate) thickness_file: Option<PathBuf>,
+    /// Farthest that the chords of an arc may be from it, in millimetres. Default: 2 % of its radius.
+    #[arg(long, value_name = "MM", value_parser = positive, allow_hyphen_values = true)]
+    pub(crate) chord: Option<f64>,
+    /// A mitre that would stick out more than this many times the wall's offset becomes an arc.
+    #[arg(long, value_name = "TIMES", value_parser = mitre_limit, allow_hyphen_values = true)]
+    pub(crate) mitre_limit: Option<f64>,
+    /// Unit of the sheet. Default: metres for GLB; else millimetres, or metres where it is only a few units large and
+    /// could not be so thick otherwise.
+    #[arg(long, value_enum)]
+    pub(crate) unit: Option<Unit>,
+}
+
+/// Which side of a sheet gets material.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum WallSide {
+    Both,
+    Front,
+    Back,
+}
+
+/// How the outer side of a fold is closed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum FoldCorners {
+    Round,
+    #[value(alias = "miter")]
+    Mitre,
+}
+
+/// A length that something can have.
+fn positive(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(x) if x.is_finite() && x > 0.0 => Ok(x),
+        _ => Err("it takes a number of millimetres larger than 0, such as 2 or 0.8".to_owned()),
+    }
+}
+
+/// `NAME=MM`; names may hold equals signs.
+pub(crate) fn named_thickness(text: &str) -> Result<(String, f64), String> {
+    let (name, thickness) =
+        text.rsplit_once('=').ok_or("it takes a patch and its thickness, such as floor=4")?;
+    Ok((name.to_owned(), positive(thickness)?))
+}
+
+fn mitre_limit(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(x) if x.is_finite() && x >= 1.0 => Ok(x),
+        _ => Err("it takes a number from 1 on: a mitre is never shorter than the wall's offset".to_owned()),
     }
 }
 

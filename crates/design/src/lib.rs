@@ -6,6 +6,8 @@
 //! * [`document`]: the file `design.toile`;
 //! * [`pictures`]: front, back, pattern, features, any model;
 //! * [`model_info`]: what a model holds;
+//! * [`mod@thicken`]: a sheet to a solid's file;
+//! * [`units`]: what a file's numbers mean;
 //! * [`output`]: files made in memory, then written.
 
 pub mod batch;
@@ -17,3 +19,5 @@ pub mod output;
 pub mod pictures;
 pub mod regenerate;
 pub mod report;
+pub mod thicken;
+pub mod units;

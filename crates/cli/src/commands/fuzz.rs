@@ -1,4 +1,4 @@
-//! Fuzzing of what the command line itself reads: its words, the values in them, lists of bodies, thicknesses.
+//! Fuzzing of what the command line itself reads: its words, the values in them, lists of bodies.
 
 use std::path::Path;
 
@@ -48,6 +48,8 @@ fn words() {
         "toile render m.obj --with b.obj --view back --size 640x480 --color stretch --unit inch -o back.png -v",
         "toile features b.obj -o f.json --picture f.png",
         "toile check m.obj",
+        "toile thicken s.obj --thickness 2 --side both --corners mitre -o s.stl --patch-thickness a=3 --mitre-limit 3",
+        "toile thicken s.obj --thickness-file s.json --chord 0.01 --unit m -o s.glb",
     ];
     run("words", Shape::Bytes, &calls, |text| {
         // A call has few words; what the system passes on is cut off long before.
@@ -69,6 +71,12 @@ fn words() {
                 vec![3, width as usize, height as usize]
             }
             Command::Form(_) => vec![4],
+            Command::Thicken(words) => {
+                let named = words.patch_thickness.iter().map(|n| n.1);
+                let all = named.chain(words.thickness).chain(words.chord).chain(words.mitre_limit);
+                assert!(all.clone().all(|t| t.is_finite() && t > 0.0));
+                vec![6, all.count()]
+            }
             _ => vec![5],
         })
     });
@@ -79,14 +87,5 @@ fn list_of_bodies() {
     run("body list", Shape::Bytes, &["# bodies\na.obj\n\n  b/c.ply\r\n/d e.stl\n"], |text| {
         let paths = batch::listed(text, Path::new("folder"));
         if paths.is_empty() { Err(Failure::new("names no bodies")) } else { Ok(vec![paths.len()]) }
-    });
-}
-
-#[test]
-fn thicknesses() {
-    run("thicknesses", Shape::Json, &["[2, 2.5, 3e-1, 0, 1.25]"], |text| {
-        let all = render::thicknesses(text)?;
-        assert!(all.iter().all(|t| t.is_finite()));
-        Ok(vec![all.len()])
     });
 }

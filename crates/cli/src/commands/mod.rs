@@ -10,6 +10,7 @@ mod fuzz;
 pub(crate) mod info;
 pub(crate) mod regenerate;
 pub(crate) mod render;
+pub(crate) mod thicken;
 
 use std::path::Path;
 
@@ -26,12 +27,17 @@ fn read_mesh(path: &Path) -> Result<TriMesh, Failure> {
 
 /// Reads a body: a native body file, or a mesh whose groups are its surfaces. The message names the file.
 fn read_body(path: &Path) -> Result<Body, Failure> {
-    if !file_name(path).to_ascii_lowercase().ends_with(BODY_FILE_EXTENSION) {
+    if !is_body_file(path) {
         return Body::from_tri_mesh(&read_mesh(path)?).map_err(|e| Failure::from(e).about(path));
     }
     let bytes =
         std::fs::read(path).map_err(|e| Failure::new(format!("cannot read {}: {e}", path.display())))?;
     Body::from_file_bytes(&bytes).map_err(|e| Failure::new(format!("{}: {e}", path.display())))
+}
+
+/// Whether the name is that of a native body file.
+fn is_body_file(path: &Path) -> bool {
+    file_name(path).to_ascii_lowercase().ends_with(BODY_FILE_EXTENSION)
 }
 
 /// Writes a file whole or not at all.

@@ -3,6 +3,8 @@
 use std::path::Path;
 
 use design::pictures::{ModelColor, ModelPicture, model_picture};
+use design::thicken::list_from_json;
+use design::units::guess_of_model;
 use serde::Serialize;
 use viewer::View;
 
@@ -40,7 +42,7 @@ pub(crate) fn run(words: &Render, speech: &Speech) -> Result<(), Failure> {
         Side::Top => View::Top,
         Side::Iso => View::Iso,
     };
-    let unit = words.unit.map_or_else(|| guess_unit(&model), Unit::millimetres);
+    let unit = words.unit.map_or_else(|| guess_of_model(&model), Unit::millimetres);
     speech.step("drawing");
     let picture = model_picture(&ModelPicture {
         model: &model,
@@ -66,24 +68,10 @@ pub(super) fn size(text: &str) -> Result<(u32, u32), Failure> {
     }
 }
 
-/// Scans and garments in metres are a few units high, in centimetres some hundred, in millimetres thousands.
-fn guess_unit(model: &mesh_kernel::TriMesh) -> f64 {
-    let extent = model.bounds().map_or(0.0, |[low, high]| (high - low).max_element());
-    match extent {
-        e if e < 4.0 => 1000.0,
-        e if e < 400.0 => 10.0,
-        _ => 1.0,
-    }
-}
-
 /// The thicknesses beside a sheet: `NAME.thickness.json`, a list with one number a triangle, in millimetres.
 fn thickness(model: &Path) -> Result<Vec<f64>, Failure> {
     let path = model.with_extension("thickness.json");
     let text = std::fs::read_to_string(&path)
         .map_err(|e| Failure::new(format!("cannot read the thicknesses {}: {e}", path.display())))?;
-    thicknesses(&text).map_err(|e| e.about(&path))
-}
-
-pub(super) fn thicknesses(text: &str) -> Result<Vec<f64>, Failure> {
-    Ok(serde_json::from_str(text)?)
+    list_from_json(&text).map_err(|e| Failure::from(e).about(&path))
 }

@@ -15,6 +15,7 @@ fn readers(mesh: &Path, out: &Path) -> Vec<Vec<String>> {
         own(&["check", mesh]),
         own(&["info", mesh]),
         own(&["flatten", mesh, "-o", &at("flat.svg")]),
+        own(&["thicken", mesh, "--thickness", "1", "-o", &at("solid.stl")]),
         own(&["render", mesh, "-o", &at("picture.png"), "--size", "64x64"]),
         own(&["render", mesh, "--with", mesh, "-o", &at("both.png"), "--size", "64x64"]),
     ]
@@ -173,6 +174,8 @@ fn a_place_that_cannot_be_written() {
         .refused(1, "");
     toile(&["render", word(form()), "-o", word(&under.join("a.png")), "--size", "32x32"]).refused(1, "");
     toile(&["features", word(form()), "-o", word(&under.join("f.json"))]).refused(1, "");
+    let solid = under.join("s.obj");
+    toile(&["thicken", word(form()), "--thickness", "1", "-o", word(&solid)]).refused(1, "");
     assert_eq!(std::fs::read(&file).unwrap(), b"in the way");
     assert_eq!(folder.list(), ["file"]);
 }

@@ -13,5 +13,6 @@ mod fixtures;
 mod forms;
 mod models;
 mod regenerate;
+mod thicken;
 mod threads;
 mod words;

@@ -4,7 +4,8 @@ use crate::call::{Folder, toile, word};
 use crate::fixtures::{dress, form};
 
 /// All commands.
-const COMMANDS: [&str; 8] = ["regenerate", "batch", "features", "form", "check", "info", "flatten", "render"];
+const COMMANDS: [&str; 9] =
+    ["regenerate", "batch", "features", "form", "check", "info", "flatten", "thicken", "render"];
 
 #[test]
 fn help_explains_every_command() {
@@ -20,7 +21,7 @@ fn help_explains_every_command() {
 
 #[test]
 fn unknown_and_missing_words_are_refused() {
-    let calls: [&[&str]; 22] = [
+    let calls: [&[&str]; 35] = [
         &["sew"],
         &["regenerate"],
         &["regenerate", "t.json"],
@@ -41,6 +42,19 @@ fn unknown_and_missing_words_are_refused() {
         &["check"],
         &["info", "--volume", "a.obj"],
         &["flatten", "a.obj"],
+        &["thicken", "a.obj", "--thickness", "2"],
+        &["thicken", "a.obj", "-o", "b.obj"],
+        &["thicken", "--thickness", "2", "-o", "b.obj"],
+        &["thicken", "a.obj", "-o", "b.obj", "--thickness", "thick"],
+        &["thicken", "a.obj", "-o", "b.obj", "--thickness", "0"],
+        &["thicken", "a.obj", "-o", "b.obj", "--thickness", "-1"],
+        &["thicken", "a.obj", "-o", "b.obj", "--thickness", "nan"],
+        &["thicken", "a.obj", "-o", "b.obj", "--thickness", "2", "--side", "inner"],
+        &["thicken", "a.obj", "-o", "b.obj", "--thickness", "2", "--corners", "sharp"],
+        &["thicken", "a.obj", "-o", "b.obj", "--thickness", "2", "--patch-thickness", "floor"],
+        &["thicken", "a.obj", "-o", "b.obj", "--thickness", "2", "--thickness-file", "t.json"],
+        &["thicken", "a.obj", "-o", "b.obj", "--thickness", "2", "--mitre-limit", "0.5"],
+        &["thicken", "a.obj", "-o", "b.obj", "--thickness", "2", "--chord", "inf"],
         &["render", "a.obj", "-o", "a.png", "--view", "inside"],
         &["render", "a.obj"],
     ];
@@ -70,6 +84,8 @@ fn words_that_only_the_program_can_judge_are_refused_too() {
         vec!["flatten", form, "-o", "a.docx"],
         vec!["flatten", form, "-o", "a"],
         vec!["form", "--bust", "90", "-o", "a.docx"],
+        vec!["thicken", form, "--thickness", "2", "-o", "a.docx"],
+        vec!["thicken", form, "--thickness", "2", "-o", "a"],
         vec!["flatten", form, "-o", "a.svg", "--cut", "1-x"],
         vec!["flatten", form, "-o", "a.svg", "--cut", "0-1"],
     ];

@@ -29,6 +29,7 @@ mod box_tree;
 mod complex;
 mod curves;
 mod cut_face;
+mod edge_uses;
 mod error;
 mod exact;
 mod grid;

@@ -185,3 +185,17 @@ fn batch_report() {
         }
     }));
 }
+
+#[test]
+fn thicknesses() {
+    run(reader("thicknesses", vec![b"[2, 2.5, 3e-1, 0, 1.25]".to_vec()], |bytes| {
+        let Ok(text) = std::str::from_utf8(bytes) else { return Reading::Refused("no text".into()) };
+        match design::thicken::list_from_json(text) {
+            Ok(all) => {
+                assert!(all.iter().all(|t| t.is_finite()));
+                Reading::Sound(vec![all.len()])
+            }
+            Err(error) => Reading::Refused(error.to_string()),
+        }
+    }));
+}
