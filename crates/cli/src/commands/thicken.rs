@@ -105,7 +105,6 @@ impl Watcher for Steps<'_> {
             Step::Entities => "finding folds, joints and free edges",
             Step::Offsets => "offsetting",
             Step::Union => "uniting the offsets",
-            Step::Purge => "purging what is inside",
             Step::Measure => "measuring",
         });
     }

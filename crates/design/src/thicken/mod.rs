@@ -171,7 +171,6 @@ impl Watcher for Clock<'_> {
             Step::Entities => "entities",
             Step::Offsets => "offsets",
             Step::Union => "union",
-            Step::Purge => "purge",
             Step::Measure => "measure",
         });
         self.watcher.step(step);

@@ -17,6 +17,19 @@ pub(super) fn volume(a: DVec3, b: DVec3, c: DVec3, p: DVec3) -> i128 {
     (uy * vz - uz * vy) * wx + (uz * vx - ux * vz) * wy + (ux * vy - uy * vx) * wz
 }
 
+/// [`volume`] as a double with the right sign: by doubles where they tell it.
+#[inline]
+pub(super) fn volume_sign(a: DVec3, b: DVec3, c: DVec3, p: DVec3) -> f64 {
+    let (u, v, w) = (b - a, c - a, p - a);
+    let minors = [(u.y * v.z, u.z * v.y), (u.z * v.x, u.x * v.z), (u.x * v.y, u.y * v.x)];
+    let [x, y, z] = minors.map(|(m, n)| m - n);
+    let six = x * w.x + y * w.y + z * w.z;
+    let [x, y, z] = minors.map(|(m, n)| m.abs() + n.abs());
+    // Differences have no error; products, sums and their rounding stay below this (Shewchuk 1997).
+    let error = 8.0 * f64::EPSILON * (x * w.x.abs() + y * w.y.abs() + z * w.z.abs());
+    if six.abs() > error { six } else { volume(a, b, c, p) as f64 }
+}
+
 /// Twice the area of the triangle in the plane without `axis`. Exact.
 pub(super) fn flat_area(axis: usize, a: DVec3, b: DVec3, c: DVec3) -> i128 {
     let (x, y) = plane_axes(axis);

@@ -5,9 +5,9 @@
 //! coincide, which is what makes walls in one plane *one* wall although every formula rounds in its own way.
 
 use glam::DVec3;
-use robust::{Coord, Coord3D, orient2d, orient3d};
+use robust::{Coord, orient2d};
 
-use super::exact::plane_axes;
+use super::exact::{plane_axes, volume_sign};
 
 /// Two nodes, the smaller first.
 pub(super) type Edge = [u32; 2];
@@ -126,13 +126,6 @@ fn flat_length(axis: usize, [p, q]: [DVec3; 2]) -> f64 {
     ((q[x] - p[x]).powi(2) + (q[y] - p[y]).powi(2)).sqrt()
 }
 
-/// Six times the volume, above zero where `p` is on the side of the normal. Exact in its sign.
-#[inline]
-fn volume(a: DVec3, b: DVec3, c: DVec3, p: DVec3) -> f64 {
-    let at = |p: DVec3| Coord3D { x: p.x, y: p.y, z: p.z };
-    -orient3d(at(a), at(b), at(c), at(p))
-}
-
 /// Sign of a value, zero up to a tolerance.
 #[inline]
 fn sign(value: f64, tolerance: f64) -> i8 {
@@ -203,7 +196,7 @@ fn pierce(t: &Corners, [p, q]: [DVec3; 2], up: bool, near: f64) -> Where {
     let round = if up { 1.0 } else { -1.0 };
     let volumes = [0, 1, 2].map(|k| {
         let [a, b] = t.side(k);
-        round * volume(p, q, a, b)
+        round * volume_sign(p, q, a, b)
     });
     if near == 0.0 {
         return place(volumes.map(|v| sign(v, 0.0)));
@@ -252,7 +245,7 @@ impl View {
         let tolerance = near * normal.length();
         let [a, b, c] = from.at;
         let sides =
-            [0, 1, 2].map(|k| if shared[k] { 0 } else { sign(volume(a, b, c, seen.at[k]), tolerance) });
+            [0, 1, 2].map(|k| if shared[k] { 0 } else { sign(volume_sign(a, b, c, seen.at[k]), tolerance) });
         Self { sides, shared }
     }
 
@@ -272,8 +265,12 @@ impl View {
 pub(super) fn meet(one: &Corners, other: &Corners, near: f64, out: &mut Vec<Finding>) -> Verdict {
     let (normal, other_normal) = (one.normal(), other.normal());
     let shared_count = other.nodes.iter().filter(|v| one.nodes.contains(v)).count();
-    if shared_count == 3 || (shared_count == 1 && parted_at_corner(one, other, dominant_axis(normal), near)) {
-        return Verdict::Apart;
+    let axis = dominant_axis(normal);
+    match shared_count {
+        0 if parted_by_side(one, other, axis, near) => return Verdict::Apart,
+        1 if parted_at_corner(one, other, axis, near) => return Verdict::Apart,
+        3 => return Verdict::Apart,
+        _ => {}
     }
     let seen = View::of(other, one, normal, near);
     if seen.apart() || seen.touches_in_shared() {
@@ -343,6 +340,19 @@ pub(super) fn meet(one: &Corners, other: &Corners, near: f64, out: &mut Vec<Find
     if marks.is_empty() { Verdict::Unclear } else { Verdict::Marked }
 }
 
+/// Whether a side of one of two faces parts them by more than `near`, seen along an axis.
+fn parted_by_side(one: &Corners, other: &Corners, axis: usize, near: f64) -> bool {
+    let parts = |t: &Corners, u: &Corners| {
+        (0..3).any(|k| {
+            let [a, b] = t.side(k);
+            let slack = near * flat_length(axis, [a, b]);
+            let own = sign(flat_turn(axis, a, b, t.at[(k + 2) % 3]), 0.0);
+            own != 0 && u.at.iter().all(|p| sign(flat_turn(axis, a, b, *p), slack) == -own)
+        })
+    };
+    parts(one, other) || parts(other, one)
+}
+
 /// Whether two faces with one common node lie, seen along an axis, on either side of a line through it, farther from it
 /// than `near`.
 fn parted_at_corner(one: &Corners, other: &Corners, axis: usize, near: f64) -> bool {
@@ -360,9 +370,18 @@ fn parted_at_corner(one: &Corners, other: &Corners, axis: usize, near: f64) -> b
     let slack = |p: DVec3| near * flat_length(axis, [centre, p]);
     let slacks = [[a, b], [c, d]].map(|ends| ends.map(slack));
     let clear = |i: usize, k: usize| turns[i][k].abs() > slacks[0][i].max(slacks[1][k]);
+    // On the far side of the common node.
+    let (x, y) = plane_axes(axis);
+    let opposite = |i: usize, k: usize| {
+        let (p, q) = ([a, b][i] - centre, [c, d][k] - centre);
+        p[x] * q[x] + p[y] * q[y] < 0.0
+    };
+    let parts = |i: usize, k: usize, turn: f64| {
+        (turn < 0.0 && (clear(i, k) || opposite(i, k))) || (turn == 0.0 && opposite(i, k))
+    };
     // The line to an end parts the faces if their other ends lie on either side of it.
-    let by_own = |i: usize, inner: f64| (0..2).all(|k| clear(i, k) && turns[i][k] * inner < 0.0);
-    let by_other = |k: usize, inner: f64| (0..2).all(|i| clear(i, k) && turns[i][k] * inner > 0.0);
+    let by_own = |i: usize, inner: f64| inner != 0.0 && (0..2).all(|k| parts(i, k, turns[i][k] * inner));
+    let by_other = |k: usize, inner: f64| inner != 0.0 && (0..2).all(|i| parts(i, k, -turns[i][k] * inner));
     by_own(0, own) || by_own(1, -own) || by_other(0, others_own) || by_other(1, -others_own)
 }
 

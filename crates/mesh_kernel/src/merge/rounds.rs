@@ -496,12 +496,20 @@ impl<'a> Round<'a> {
                 });
             }
             for curve in crossings {
-                let members = |w: &[u32]| Some([*index.get(&w[0])?, *index.get(&w[1])?]);
+                // An edge in the face's plane: what is between two of its nodes on the face is on it too.
+                let first = curve.nodes.iter().position(|n| index.contains_key(n));
+                let last = curve.nodes.iter().rposition(|n| index.contains_key(n));
+                let (Some(first), Some(last)) = (first, last) else { continue };
+                let run = &curve.nodes[first..=last];
+                for &node in run {
+                    index.entry(node).or_insert_with(|| {
+                        nodes.push(seen(node));
+                        nodes.len() as u32 - 1
+                    });
+                }
                 lines.extend(
-                    curve
-                        .nodes
-                        .windows(2)
-                        .filter_map(members)
+                    run.windows(2)
+                        .map(|w| [index[&w[0]], index[&w[1]]])
                         .filter(|[a, b]| !adjacent(*a, *b, count as u32))
                         .map(|ends| Line { ends, course: curve.course, border: false }),
                 );

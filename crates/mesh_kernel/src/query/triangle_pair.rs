@@ -57,18 +57,73 @@ pub(crate) fn faces_meet_beyond_shared(one: [u32; 3], other: [u32; 3], at: impl 
     let find = |flags: [bool; 3], flag: bool| flags.iter().position(|f| *f == flag).unwrap_or(0);
     let after = |face: [u32; 3], corner: usize, k: usize| at(face[(corner + k) % 3]);
     match (count(is_shared), count(is_shared_too)) {
-        (0, 0) => triangles_meet(&one.map(&at), &other.map(&at)),
+        (0, 0) => {
+            let (one, other) = (one.map(&at), other.map(&at));
+            !parted_by_side(&one, &other) && triangles_meet(&one, &other)
+        }
         (1, 1) => {
             let (i, k) = (find(is_shared, true), find(is_shared_too, true));
             let rest = |face, corner| [after(face, corner, 1), after(face, corner, 2)];
-            triangles_meet_beyond_corner(at(one[i]), rest(one, i), rest(other, k))
+            let (centre, rest) = (at(one[i]), [rest(one, i), rest(other, k)]);
+            !parted_at_corner(centre, rest) && triangles_meet_beyond_corner(centre, rest[0], rest[1])
         }
         (2, 2) => {
             let (i, k) = (find(is_shared, false), find(is_shared_too, false));
-            triangles_meet_beyond_side([after(one, i, 1), after(one, i, 2)], at(one[i]), at(other[k]))
+            let (shared, tips) = ([after(one, i, 1), after(one, i, 2)], [at(one[i]), at(other[k])]);
+            !parted_at_side(shared, tips) && triangles_meet_beyond_side(shared, tips[0], tips[1])
         }
         _ => true,
     }
+}
+
+// Most pairs of faces whose boxes meet are neighbours in a surface that is nearly flat there. Seen along the axis nearest to
+// their normal they lie side by side, and so they do in space; that is told by few and cheap signs.
+
+/// The axis along which a triangle looks largest.
+fn widest_axis([a, b, c]: &Triangle) -> usize {
+    let n = (*b - *a).cross(*c - *a).abs();
+    if n.x >= n.y && n.x >= n.z { 0 } else { 1 + usize::from(n.z > n.y) }
+}
+
+/// Whether a side of one of two triangles parts them, seen along an axis.
+fn parted_by_side(one: &Triangle, other: &Triangle) -> bool {
+    let axis = widest_axis(one);
+    let (one, other) = (one.map(|p| project(p, axis)), other.map(|p| project(p, axis)));
+    let parts = |t: &[Point; 3], u: &[Point; 3]| {
+        (0..3).any(|k| {
+            let (a, b) = (t[k], t[(k + 1) % 3]);
+            let own = sign(orient2d(a, b, t[(k + 2) % 3]));
+            own != Ordering::Equal && u.iter().all(|p| sign(orient2d(a, b, *p)) == own.reverse())
+        })
+    };
+    parts(&one, &other) || parts(&other, &one)
+}
+
+/// Whether two triangles at a common corner, given by their other corners, lie on either side of a line through it, seen
+/// along an axis.
+fn parted_at_corner(centre: DVec3, rest: [[DVec3; 2]; 2]) -> bool {
+    let axis = widest_axis(&[centre, rest[0][0], rest[0][1]]);
+    let o = project(centre, axis);
+    let [[a, b], [c, d]] = rest.map(|ends| ends.map(|p| project(p, axis)));
+    // On the line to an end, but on the far side of the corner, or beyond the line.
+    let beyond = |end: Point, own: Ordering, p: Point| {
+        let turn = sign(orient2d(o, end, p));
+        let opposite = (end.x - o.x) * (p.x - o.x) + (end.y - o.y) * (p.y - o.y) < 0.0;
+        turn == own.reverse() || (turn == Ordering::Equal && opposite)
+    };
+    let parts = |end: Point, own_end: Point, ends: [Point; 2]| {
+        let own = sign(orient2d(o, end, own_end));
+        own != Ordering::Equal && ends.iter().all(|p| beyond(end, own, *p))
+    };
+    parts(a, b, [c, d]) || parts(b, a, [c, d]) || parts(c, d, [a, b]) || parts(d, c, [a, b])
+}
+
+/// Whether two triangles on a common side lie on either side of it, seen along an axis.
+fn parted_at_side([a, b]: [DVec3; 2], tips: [DVec3; 2]) -> bool {
+    let axis = widest_axis(&[a, b, tips[0]]);
+    let (a, b) = (project(a, axis), project(b, axis));
+    let [one, other] = tips.map(|p| sign(orient2d(a, b, project(p, axis))));
+    one != Ordering::Equal && other == one.reverse()
 }
 
 /// Whether two triangles with the common corner `shared` have another point in common; the arrays hold the others.
