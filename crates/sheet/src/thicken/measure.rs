@@ -33,10 +33,9 @@ pub(super) fn pieces(mesh: &TriMesh) -> Pieces {
         }
     }
     edges.sort_unstable();
-    let closed =
-        edges.len().is_multiple_of(2)
-            && edges.chunks(2).all(|e| (e[0].0, e[0].1) == (e[1].0, e[1].1) && !e[0].2 && e[1].2)
-            && edges.chunks(2).zip(edges.chunks(2).skip(1)).all(|(e, f)| (e[0].0, e[0].1) != (f[0].0, f[0].1));
+    let closed = edges.len().is_multiple_of(2)
+        && edges.chunks(2).all(|e| (e[0].0, e[0].1) == (e[1].0, e[1].1) && !e[0].2 && e[1].2)
+        && edges.chunks(2).zip(edges.chunks(2).skip(1)).all(|(e, f)| (e[0].0, e[0].1) != (f[0].0, f[0].1));
     let middle = mesh.bounds().map_or(DVec3::ZERO, |[lo, hi]| 0.5 * (lo + hi));
     let mut volume = vec![0.0; mesh.positions.len()];
     let mut used = vec![false; mesh.positions.len()];

@@ -53,10 +53,7 @@ fn gathered(kind: PlaceKind, mut spots: Vec<Spot>) -> Vec<Place> {
         cell *= 2.0;
         spots = joined(spots, cell);
     }
-    spots
-        .into_iter()
-        .map(|Spot { at, patches, faces }| Place { kind, at, patches, faces })
-        .collect()
+    spots.into_iter().map(|Spot { at, patches, faces }| Place { kind, at, patches, faces }).collect()
 }
 
 /// Spots of the same patches in one cell made one.
