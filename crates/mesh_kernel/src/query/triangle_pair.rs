@@ -30,8 +30,67 @@ fn apart(a: Ordering, b: Ordering) -> bool {
     a == b && a != Ordering::Equal
 }
 
+/// The projection in which a triangle is seen largest.
+fn widest([a, b, c]: &Triangle) -> usize {
+    let n = (*b - *a).cross(*c - *a).abs();
+    if n.x >= n.y && n.x >= n.z {
+        0
+    } else if n.y >= n.z {
+        1
+    } else {
+        2
+    }
+}
+
+/// Whether the line through `p` and `q`, seen in a plane, has all of `others` strictly on one side and `apex` not.
+fn parts(p: Point, q: Point, apex: Point, others: &[Point]) -> bool {
+    let on = sign(orient2d(p, q, others[0]));
+    on != Ordering::Equal
+        && others[1..].iter().all(|o| sign(orient2d(p, q, *o)) == on)
+        && sign(orient2d(p, q, apex)) != on
+}
+
+/// Whether a line along a side of either parts two triangles seen along an axis: a quick way to see that they do not
+/// meet, which takes no determinants of three rows. Neighbours in a flat mesh mostly are.
+fn seen_apart(one: &Triangle, other: &Triangle) -> bool {
+    let axis = widest(one);
+    let (one, other) = (one.map(|p| project(p, axis)), other.map(|p| project(p, axis)));
+    let by_side_of =
+        |t: &[Point; 3], u: &[Point; 3]| (0..3).any(|i| parts(t[i], t[(i + 1) % 3], t[(i + 2) % 3], u));
+    by_side_of(&one, &other) || by_side_of(&other, &one)
+}
+
+/// The same for triangles with a common corner, but for that corner. Sides of the two may lie on one line, if they leave
+/// the corner in opposite directions.
+fn seen_apart_beyond_corner(shared: DVec3, one: [DVec3; 2], other: [DVec3; 2]) -> bool {
+    let axis = widest(&[shared, one[0], one[1]]);
+    let shared = project(shared, axis);
+    let (one, other) = (one.map(|p| project(p, axis)), other.map(|p| project(p, axis)));
+    // Along the side from the corner to `p`, the third corner being `apex`.
+    let by_side = |p: Point, apex: Point, rest: [Point; 2]| {
+        let on = sign(orient2d(shared, p, apex)).reverse();
+        let goes_back = |o: Point| {
+            let (a, b) = if p.x == shared.x {
+                (p.y - shared.y, o.y - shared.y)
+            } else {
+                (p.x - shared.x, o.x - shared.x)
+            };
+            (a > 0.0 && b < 0.0) || (a < 0.0 && b > 0.0)
+        };
+        let turns = rest.map(|o| sign(orient2d(shared, p, o)));
+        on != Ordering::Equal
+            && turns.contains(&on)
+            && (0..2).all(|i| turns[i] == on || (turns[i] == Ordering::Equal && goes_back(rest[i])))
+    };
+    let by_side_of = |[a, b]: [Point; 2], rest| by_side(a, b, rest) || by_side(b, a, rest);
+    by_side_of(one, other) || by_side_of(other, one)
+}
+
 /// Whether two triangles touch or cross.
 pub(super) fn triangles_meet(one: &Triangle, other: &Triangle) -> bool {
+    if seen_apart(one, other) {
+        return false;
+    }
     let [a, b, c] = other.map(|p| side(one, p));
     if apart(a, b) && apart(b, c) {
         return false;
@@ -128,13 +187,19 @@ fn parted_at_side([a, b]: [DVec3; 2], tips: [DVec3; 2]) -> bool {
 
 /// Whether two triangles with the common corner `shared` have another point in common; the arrays hold the others.
 fn triangles_meet_beyond_corner(shared: DVec3, one: [DVec3; 2], other: [DVec3; 2]) -> bool {
+    if seen_apart_beyond_corner(shared, one, other) {
+        return false;
+    }
     // Whatever else they share reaches the side across from the corner in one of the two.
     segment_meets(one, &[shared, other[0], other[1]]) || segment_meets(other, &[shared, one[0], one[1]])
 }
 
 /// Whether two triangles on the common side `shared` have a point in common off it: flat on each other.
 fn triangles_meet_beyond_side(shared: [DVec3; 2], one: DVec3, other: DVec3) -> bool {
-    if side(&[shared[0], shared[1], one], other) != Ordering::Equal {
+    let axis = widest(&[shared[0], shared[1], one]);
+    let [u, v, a, b] = [shared[0], shared[1], one, other].map(|p| project(p, axis));
+    // Seen on either side of what they share; the middle test is the dear one.
+    if parts(u, v, a, &[b]) || side(&[shared[0], shared[1], one], other) != Ordering::Equal {
         return false;
     }
     let mut all_flat = true;

@@ -161,7 +161,13 @@ impl<'a> Offsetting<'a> {
             }
             near.reverse();
             let before = chain.mesh.faces.len();
-            push_strip(&offsets.positions, &near, &far, &mut chain.mesh.faces);
+            push_strip(
+                &offsets.positions,
+                self.sheet.positions.len() as u32,
+                &near,
+                &far,
+                &mut chain.mesh.faces,
+            );
             let through = places.iter().any(|&place| disks.paths[place] == Path::ThroughNode);
             let turn = entities.turn[edge_use as usize].abs();
             let step = turn < STEP && self.depth[edge_use as usize] != self.depth[next(mate) as usize];

@@ -7,8 +7,14 @@ use glam::DVec3;
 
 /// Triangles between the path `near` at one end of an edge-use and the path `far` at its other end, both from the
 /// edge-use's own offset point to that of its mate; outward when the offset of the edge-use's face is `near[0]` to
-/// `far[0]`. Appends them to `out`. O(n).
-pub(super) fn push_strip(positions: &[DVec3], near: &[u32], far: &[u32], out: &mut Vec<[u32; 3]>) {
+/// `far[0]`. Points below `nodes` are nodes of the sheet. Appends them to `out`. O(n).
+pub(super) fn push_strip(
+    positions: &[DVec3],
+    nodes: u32,
+    near: &[u32],
+    far: &[u32],
+    out: &mut Vec<[u32; 3]>,
+) {
     let (n, m) = (near.len() - 1, far.len() - 1);
     let at = |id: u32| positions[id as usize];
     let (mut i, mut j) = (0, 0);
@@ -18,8 +24,16 @@ pub(super) fn push_strip(positions: &[DVec3], near: &[u32], far: &[u32], out: &m
         } else if i == n {
             false
         } else if (i + 1) * m == (j + 1) * n {
-            // A quadrangle: its shorter diagonal.
-            at(near[i + 1]).distance_squared(at(far[j])) <= at(near[i]).distance_squared(at(far[j + 1]))
+            // A quadrangle. Side walls on the two sides of a joint, which may coincide, are cut alike so that they cancel:
+            // from the smaller node. Others are cut along the shorter diagonal.
+            match [near[i], near[i + 1], far[j], far[j + 1]].map(|id| id < nodes) {
+                [true, false, true, false] => near[i] > far[j],
+                [false, true, false, true] => near[i + 1] < far[j + 1],
+                _ => {
+                    at(near[i + 1]).distance_squared(at(far[j]))
+                        <= at(near[i]).distance_squared(at(far[j + 1]))
+                }
+            }
         } else {
             (i + 1) * m < (j + 1) * n
         };
@@ -52,7 +66,7 @@ mod tests {
             (&[0, 1], &[5, 6]),
         ] {
             let mut triangles = Vec::new();
-            push_strip(&positions, near, far, &mut triangles);
+            push_strip(&positions, 0, near, far, &mut triangles);
             assert_eq!(triangles.len(), near.len() + far.len() - 2);
             let mut edges: Vec<[u32; 2]> =
                 triangles.iter().flat_map(|t| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]]).collect();
