@@ -24,13 +24,13 @@ fn assert_closed(name: &str, chain: &OffsetChain) {
         let sum: i32 = same.iter().map(|e| e.2).sum();
         assert_eq!(sum, 0, "{name}: edge {:?} is open", &same[0]);
     }
-    assert!(chain.positions.iter().all(|p| p.is_finite()), "{name}");
-    assert_eq!(chain.faces.len(), chain.origins.len(), "{name}");
+    assert!(chain.mesh.positions.iter().all(|p| p.is_finite()), "{name}");
+    assert_eq!(chain.mesh.faces.len(), chain.origins.len(), "{name}");
 }
 
 fn volume(chain: &OffsetChain) -> f64 {
-    let at = |v: u32| chain.positions[v as usize] - chain.positions[0];
-    chain.faces.iter().map(|f| at(f[0]).dot(at(f[1]).cross(at(f[2]))) / 6.0).sum()
+    let at = |v: u32| chain.mesh.positions[v as usize] - chain.mesh.positions[0];
+    chain.mesh.faces.iter().map(|f| at(f[0]).dot(at(f[1]).cross(at(f[2]))) / 6.0).sum()
 }
 
 fn assert_volume(name: &str, sheet: &TriMesh, options: &ThickenOptions, wanted: f64, tolerance: f64) {
@@ -64,7 +64,7 @@ fn plates_are_exact() {
                 let chain = offset_chain(&sheet, &options).unwrap();
                 assert_eq!(chain.holes_filled, 0);
                 // A wall each side, two triangles an edge of the boundary.
-                assert_eq!(chain.faces.len(), 4 * n * n + 8 * n);
+                assert_eq!(chain.mesh.faces.len(), 4 * n * n + 8 * n);
             }
         }
     }
@@ -140,7 +140,7 @@ fn thickness_per_patch_and_per_node() {
         ThickenOptions { thickness: Thickness::PerNode(vec![2.0; sheet.positions.len()]), ..even.clone() };
     let chain = offset_chain(&sheet, &even).unwrap();
     for other in [patches, nodes] {
-        assert_eq!(chain.faces, offset_chain(&sheet, &other).unwrap().faces);
+        assert_eq!(chain.mesh.faces, offset_chain(&sheet, &other).unwrap().mesh.faces);
     }
     // A wedge of a plate: thickness from 1 to 3 along x.
     let plate = models::plate(4, 3);

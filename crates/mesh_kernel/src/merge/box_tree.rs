@@ -67,16 +67,17 @@ impl BoxTree {
             .map(|[a, b, c]| (a.min(b).min(c), a.max(b).max(c)))
             .reduce(|| (DVec3::INFINITY, DVec3::NEG_INFINITY), |a, b| (a.0.min(b.0), a.1.max(b.1)));
         let scale = CURVE_CELLS / (whole.1 - whole.0).max_element().max(1.0);
-        let mut order: Vec<(u64, u32)> = faces
+        // The place on the curve, and behind it the number.
+        let mut order: Vec<u64> = faces
             .par_iter()
             .map(|&f| {
                 let [a, b, c] = corners(f);
                 let middle = (a.min(b).min(c) + a.max(b).max(c)) / 2.0;
-                (morton((middle - whole.0) * scale), f)
+                u64::from(morton((middle - whole.0) * scale)) << 32 | u64::from(f)
             })
             .collect();
         order.par_sort_unstable();
-        let faces: Vec<u32> = order.into_iter().map(|(_, f)| f).collect();
+        let faces: Vec<u32> = order.into_iter().map(|k| k as u32).collect();
         let boxes: Vec<Bounds> = faces.par_iter().map(|&f| Bounds::of(corners(f), margin)).collect();
         let leaves = faces.len().div_ceil(LEAF).next_power_of_two();
         let first_leaf = leaves - 1;
@@ -233,17 +234,16 @@ impl BoxTree {
 }
 
 /// Cells of the curve along an axis.
-const CURVE_CELLS: f64 = ((1u64 << 21) - 1) as f64;
+const CURVE_CELLS: f64 = ((1u32 << 10) - 1) as f64;
 
 /// The place of a cell on the curve: the bits of its three coordinates by turns.
-fn morton(cell: DVec3) -> u64 {
+fn morton(cell: DVec3) -> u32 {
     let spread = |x: f64| {
-        let mut x = x as u64 & 0x1f_ffff;
-        x = (x | x << 32) & 0x1f_0000_0000_ffff;
-        x = (x | x << 16) & 0x1f_0000_ff00_00ff;
-        x = (x | x << 8) & 0x100f_00f0_0f00_f00f;
-        x = (x | x << 4) & 0x10c3_0c30_c30c_30c3;
-        (x | x << 2) & 0x1249_2492_4924_9249
+        let mut x = x as u32 & 0x3ff;
+        x = (x | x << 16) & 0x0300_00ff;
+        x = (x | x << 8) & 0x0300_f00f;
+        x = (x | x << 4) & 0x030c_30c3;
+        (x | x << 2) & 0x0924_9249
     };
     spread(cell.x) | spread(cell.y) << 1 | spread(cell.z) << 2
 }

@@ -1,9 +1,9 @@
 //! The faces while they are being merged: nodes on the grid, faces with the input faces that they are part of.
 
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::Parent;
+use super::edge_uses::by_number;
 use super::meeting::Corners;
 use crate::files::weld::{Welder, key};
 
@@ -113,19 +113,18 @@ impl Complex {
     }
 
     /// Makes one face of those that have the same nodes; at least one of each such group is among `new`. Faces that undo
-    /// each other are gone. O(n log n) in the faces on nodes of `new`.
+    /// each other are gone. O(n) in all faces.
     pub(super) fn unite_coincident(&mut self, new: &[u32]) {
         let mut touched = vec![false; self.at.len()];
         for &f in new {
             self.faces[f as usize].nodes.iter().for_each(|&v| touched[v as usize] = true);
         }
-        let (faces, gone) = (&self.faces, &self.gone);
-        let mut keys: Vec<([u32; 3], u32)> = (0..faces.len() as u32)
-            .into_par_iter()
-            .filter(|&f| !gone[f as usize] && faces[f as usize].nodes.iter().all(|&v| touched[v as usize]))
-            .map(|f| (sorted(faces[f as usize].nodes), f))
-            .collect();
-        keys.par_sort_unstable();
+        let keys = (0..).zip(&self.faces).filter_map(|(f, face)| {
+            let there = !self.gone[f as usize] && face.nodes.iter().all(|&v| touched[v as usize]);
+            there.then(|| (sorted(face.nodes), f))
+        });
+        let mut keys = by_number(keys, self.at.len(), |k| k.0[0]);
+        keys.chunk_by_mut(|a, b| a.0[0] == b.0[0]).for_each(<[([u32; 3], u32)]>::sort_unstable);
         for group in keys.chunk_by(|a, b| a.0 == b.0).filter(|g| g.len() > 1) {
             self.unite(group.iter().map(|(_, f)| *f));
         }

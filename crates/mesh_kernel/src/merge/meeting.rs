@@ -123,7 +123,7 @@ pub(super) fn flat_turn(axis: usize, a: DVec3, b: DVec3, c: DVec3) -> f64 {
 
 fn flat_length(axis: usize, [p, q]: [DVec3; 2]) -> f64 {
     let (x, y) = plane_axes(axis);
-    (q[x] - p[x]).hypot(q[y] - p[y])
+    ((q[x] - p[x]).powi(2) + (q[y] - p[y]).powi(2)).sqrt()
 }
 
 /// Six times the volume, above zero where `p` is on the side of the normal. Exact in its sign.
@@ -353,15 +353,17 @@ fn parted_at_corner(one: &Corners, other: &Corners, axis: usize, near: f64) -> b
     let centre = one.at[i];
     let [a, b] = [one.at[(i + 1) % 3], one.at[(i + 2) % 3]];
     let [c, d] = [other.at[(k + 1) % 3], other.at[(k + 2) % 3]];
-    // Sides of the lines from the common node to a and b that c and d are on.
-    let side =
-        |end: DVec3, p: DVec3| sign(flat_turn(axis, centre, end, p), near * flat_length(axis, [centre, end]));
-    let beyond = |end: DVec3, own: DVec3, [p, q]: [DVec3; 2]| {
-        let inner = side(end, own);
-        // The end of the line itself must be clear of the other face's sides too.
-        inner != 0 && [p, q].iter().all(|&p| side(end, p) == -inner && side(p, end) != 0)
-    };
-    beyond(a, b, [c, d]) || beyond(b, a, [c, d]) || beyond(c, d, [a, b]) || beyond(d, c, [a, b])
+    let turn = |p: DVec3, q: DVec3| flat_turn(axis, centre, p, q);
+    // Turns from one's ends to the other's, and how near an end may be to the line through another.
+    let turns = [a, b].map(|p| [c, d].map(|q| turn(p, q)));
+    let (own, others_own) = (turn(a, b), turn(c, d));
+    let slack = |p: DVec3| near * flat_length(axis, [centre, p]);
+    let slacks = [[a, b], [c, d]].map(|ends| ends.map(slack));
+    let clear = |i: usize, k: usize| turns[i][k].abs() > slacks[0][i].max(slacks[1][k]);
+    // The line to an end parts the faces if their other ends lie on either side of it.
+    let by_own = |i: usize, inner: f64| (0..2).all(|k| clear(i, k) && turns[i][k] * inner < 0.0);
+    let by_other = |k: usize, inner: f64| (0..2).all(|i| clear(i, k) && turns[i][k] * inner > 0.0);
+    by_own(0, own) || by_own(1, -own) || by_other(0, others_own) || by_other(1, -others_own)
 }
 
 /// Whether two faces at one edge lie on either side of it, seen along an axis.

@@ -29,6 +29,7 @@ mod box_tree;
 mod complex;
 mod curves;
 mod cut_face;
+mod edge_uses;
 mod error;
 mod exact;
 mod grid;
@@ -142,7 +143,7 @@ fn merge_on(
         first_faces.push(faces.len() as u32);
     }
     let mut complex = Complex::new(positions.into_iter(), &faces, cancel);
-    let effort = rounds::resolve(&mut complex, options.cancelled)?;
+    let effort = rounds::resolve(&mut complex, grid.near, options.cancelled)?;
     Ok(finished(&complex, grid, first_faces, effort.rounds))
 }
 
@@ -270,7 +271,7 @@ fn merge_nodes(
     options: &MergeOptions<'_>,
 ) -> Result<select::Boundary, MergeError> {
     let mut complex = Complex::new(chain.positions.into_iter(), &chain.faces, true);
-    let effort = rounds::resolve(&mut complex, options.cancelled)?;
+    let effort = rounds::resolve(&mut complex, grid.near, options.cancelled)?;
     let merged = finished(&complex, grid, vec![0, chain.faces.len() as u32], effort.rounds);
     let regions = merged.regions()?;
     let (mut boundary, _) = merged.boundary(&regions, |w| w[0] > 0);

@@ -4,8 +4,7 @@
 //! edge with one face both its sides do. What is joined so, one face after the other, is a *shell*; shells of parts that do
 //! not touch are told apart by how often the models wind about them.
 
-use rayon::prelude::*;
-
+use super::edge_uses::{Use, edge_uses};
 use super::{MergeError, Merged};
 use crate::body::radial::radial_order;
 use crate::body::weld::UnionFind;
@@ -19,6 +18,8 @@ pub struct Regions {
     pub sides: Vec<[u32; 2]>,
     /// How many there are.
     pub count: usize,
+    /// Edges of the merged faces.
+    pub edges: usize,
     pub(super) windings: Vec<i32>,
     pub(super) models: usize,
 }
@@ -30,20 +31,19 @@ impl Regions {
     }
 }
 
-/// A face's use of an edge: the smaller node, the larger one, the face, and whether it runs from small to large.
-type Use = ([u32; 2], u32, bool);
-
 impl Merged {
     /// The regions of space between the faces. O(n log n).
     ///
     /// # Errors
     /// [`MergeError::Open`] where a model is not closed: then nothing is inside it.
     pub fn regions(&self) -> Result<Regions, MergeError> {
-        let uses = self.edge_uses();
+        let uses = edge_uses(&self.faces, self.nodes.len());
         self.check_closed(&uses)?;
         let mut sides = UnionFind::new(2 * self.faces.len());
         let mut order = Vec::new();
+        let mut edges = 0;
         for fan in uses.chunk_by(|a, b| a.0 == b.0) {
+            edges += 1;
             self.turn_round(fan, &mut order);
             for (k, &i) in order.iter().enumerate() {
                 let next = order[(k + 1) % order.len()];
@@ -53,21 +53,7 @@ impl Merged {
         let (numbers, count) = sides.number();
         let sides: Vec<[u32; 2]> = numbers.chunks_exact(2).map(|s| [s[0], s[1]]).collect();
         let windings = self.windings_of(&sides, count);
-        Ok(Regions { sides, count, windings, models: self.models() })
-    }
-
-    /// All uses of edges, those of one edge in a row.
-    pub(super) fn edge_uses(&self) -> Vec<Use> {
-        let mut uses: Vec<Use> = self
-            .faces
-            .par_iter()
-            .enumerate()
-            .flat_map_iter(|(f, &[a, b, c])| {
-                [(a, b), (b, c), (c, a)].map(|(p, q)| ([p.min(q), p.max(q)], f as u32, p < q))
-            })
-            .collect();
-        uses.par_sort_unstable();
-        uses
+        Ok(Regions { sides, count, edges, windings, models: self.models() })
     }
 
     /// The uses at an edge in the order in which a right hand about the edge passes their faces.

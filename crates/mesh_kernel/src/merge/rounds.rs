@@ -23,12 +23,9 @@ use super::meeting::{Corners, Edge, Finding, Mark, Verdict, dominant_axis, edge,
 use crate::body::weld::UnionFind;
 use crate::query::faces_meet_beyond_shared;
 
-/// How near things coincide in the first round, in cells: what rounding the corners of two walls in one plane leaves
-/// between them. Every further round, which only concerns what is still in a knot, takes twice the distance: what
-/// rounding by a cell turns over is not left at the size of a cell.
-const NEAR: f64 = 64.0;
-/// Rounds after which the distance stays: a million cells, 10⁻⁶ of the size.
-const MOST_DOUBLINGS: u32 = 19;
+/// Every round after the first, which only concerns what is still in a knot, takes twice the distance of the one before for
+/// coincident, so that what rounding turns over is not left as it is; so often at most.
+const MOST_DOUBLINGS: u32 = 14;
 /// A new node within this many times that distance of an old one is not made: the old one takes its place.
 const CAPTURE: f64 = 2.0;
 /// Edges that would cross farther than this many times that distance beyond the end of one do not cross.
@@ -44,9 +41,11 @@ pub(super) struct Effort {
     pub(super) cut: usize,
 }
 
-/// Cuts faces until none meet but in nodes and edges of both. Near linear in faces, plus what crosses.
+/// Cuts faces until none meet but in nodes and edges of both; what is within `near` cells of each other coincides. Near linear
+/// in faces, plus what crosses.
 pub(super) fn resolve(
     complex: &mut Complex,
+    near: f64,
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Result<Effort, MergeError> {
     let mut effort = Effort::default();
@@ -57,7 +56,7 @@ pub(super) fn resolve(
             return Err(MergeError::Cancelled);
         }
         let round = effort.rounds;
-        let near = NEAR * f64::from(1u32 << round.min(MOST_DOUBLINGS));
+        let near = near * f64::from(1u32 << round.min(MOST_DOUBLINGS));
         let findings = look(complex, &new, &mut layers, near, round == 0);
         if findings.is_empty() {
             return Ok(effort);

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::edge_uses::edge_uses;
 use super::{MergeError, MergeOptions, Merged, Regions, touching};
 use crate::TriMesh;
 
@@ -45,8 +46,8 @@ impl Solid {
     }
 }
 
-/// A region thinner than this, in cells, is a film.
-const FILM: f64 = 1024.0;
+/// A region thinner than this many times the distance at which things coincide is a film.
+const FILM: f64 = 16.0;
 /// Part of a film's boundary that is its rim.
 const FEW: f64 = 0.05;
 
@@ -102,7 +103,8 @@ impl Merged {
             parents.push(parent.map_or(0, |p| p.face));
             [a, b, c].iter().for_each(|&v| used[v as usize] = true);
         }
-        purged.wire = self.wires(regions, &keep);
+        let kept = edge_uses(&boundary.faces, self.nodes.len());
+        purged.wire = regions.edges - kept.chunk_by(|a, b| a.0 == b.0).count();
         let mut number = vec![0; self.nodes.len()];
         for (v, _) in used.iter().enumerate().filter(|(_, used)| **used) {
             number[v] = boundary.nodes.len() as u32;
@@ -136,24 +138,12 @@ impl Merged {
             }
         }
         for r in 0..regions.count {
-            let thin = volume[r] >= 0.0 && 2.0 * volume[r] < FILM * area[r];
+            let thin = volume[r] >= 0.0 && 2.0 * volume[r] < FILM * self.grid.near * area[r];
             // A film between wanted and unwanted space may stay what it is.
             if thin && (towards[r] < FEW * area[r] || towards[r] > (1.0 - FEW) * area[r]) {
                 keep[r] = towards[r] > 0.5 * area[r];
             }
         }
-    }
-
-    /// Edges without a face that stays.
-    fn wires(&self, regions: &Regions, keep: &[bool]) -> usize {
-        let stays = |f: u32| {
-            let [front, back] = regions.sides[f as usize];
-            keep[front as usize] != keep[back as usize]
-        };
-        if (0..self.faces.len() as u32).all(stays) {
-            return 0;
-        }
-        self.edge_uses().chunk_by(|a, b| a.0 == b.0).filter(|fan| !fan.iter().any(|u| stays(u.1))).count()
     }
 }
 

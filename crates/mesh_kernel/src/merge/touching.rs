@@ -8,8 +8,8 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
-use rayon::prelude::*;
 
+use super::edge_uses::{Use, edge_uses};
 use super::grid::Grid;
 use super::select::Boundary;
 use super::{MergeError, MergeOptions, merge_nodes};
@@ -144,19 +144,6 @@ fn add_spindle(chain: &mut TriMesh, [a, b]: [DVec3; 2], radius: f64) {
     }
 }
 
-/// A face's use of an edge: the smaller node, the larger one, the face, and whether it runs from small to large.
-type Use = ([u32; 2], u32, bool);
-
-/// The boundary's uses of edges, those of one edge in a row.
-fn edge_uses(boundary: &Boundary) -> Vec<Use> {
-    let mut uses: Vec<Use> = Vec::with_capacity(3 * boundary.faces.len());
-    for (f, &[a, b, c]) in (0..).zip(&boundary.faces) {
-        uses.extend([(a, b), (b, c), (c, a)].map(|(p, q)| ([p.min(q), p.max(q)], f, p < q)));
-    }
-    uses.par_sort_unstable();
-    uses
-}
-
 /// Number of a face's corner at a node.
 fn corner(boundary: &Boundary, face: u32, node: u32) -> u32 {
     let k = boundary.faces[face as usize].iter().position(|x| *x == node).unwrap_or(0);
@@ -168,7 +155,7 @@ fn touches(boundary: &Boundary) -> Touches {
     // Corners of faces at a node, joined over edges: more than one set is more than one fan.
     let mut corners = UnionFind::new(3 * boundary.faces.len());
     let mut on_edge = vec![false; boundary.nodes.len()];
-    for fan in edge_uses(boundary).chunk_by(|a, b| a.0 == b.0) {
+    for fan in edge_uses(&boundary.faces, boundary.nodes.len()).chunk_by(|a, b| a.0 == b.0) {
         let (ends, face, _) = fan[0];
         if fan.len() > 2 {
             found.edges.push((ends, face));
@@ -202,7 +189,7 @@ fn part(boundary: &mut Boundary) -> usize {
     // Edges whose two pairs of faces hang together at both ends get a node in the middle first, one for each pair.
     for _ in 0..2 {
         double_nodes(boundary);
-        let uses = edge_uses(boundary);
+        let uses = edge_uses(&boundary.faces, boundary.nodes.len());
         let mut cut: Vec<(u32, [u32; 2], u32)> = Vec::new();
         for fan in uses.chunk_by(|a, b| a.0 == b.0).filter(|fan| fan.len() > 2) {
             let [a, b] = fan[0].0.map(|v| boundary.nodes[v as usize]);
@@ -239,7 +226,7 @@ fn pairs(boundary: &Boundary, fan: &[Use]) -> Vec<[u32; 2]> {
 
 fn double_nodes(boundary: &mut Boundary) {
     let mut corners = UnionFind::new(3 * boundary.faces.len());
-    for fan in edge_uses(boundary).chunk_by(|a, b| a.0 == b.0) {
+    for fan in edge_uses(&boundary.faces, boundary.nodes.len()).chunk_by(|a, b| a.0 == b.0) {
         let mut join = |[one, other]: [u32; 2]| {
             for v in fan[0].0 {
                 corners.union(corner(boundary, one, v), corner(boundary, other, v));

@@ -1,6 +1,5 @@
 //! The closed chain of a sheet: the offsets of all its entities, oriented, in one list of triangles.
 
-use glam::DVec3;
 use mesh_kernel::TriMesh;
 
 use super::arcs::ArcRule;
@@ -21,10 +20,8 @@ const STEP: f64 = super::runs::SMOOTH;
 /// [`mesh_kernel::merge::solid_of_chain`] makes a solid of them.
 #[derive(Clone, Debug, Default)]
 pub struct OffsetChain {
-    /// The sheet's nodes, then offset points.
-    pub positions: Vec<DVec3>,
-    /// Oriented outward.
-    pub faces: Vec<[u32; 3]>,
+    /// Its triangles, oriented outward; positions are the sheet's nodes, then offset points.
+    pub mesh: TriMesh,
     /// What each face came from; faces count in the input sheet.
     pub origins: Vec<Origin>,
     /// Holes between thickness faces that were filled.
@@ -49,10 +46,10 @@ pub fn offset_chain(sheet: &TriMesh, options: &ThickenOptions) -> Result<OffsetC
     check_options(options)?;
     let sheet = CleanSheet::new(sheet, options)?;
     let entities = Entities::new(&sheet);
-    Offsetting::new(&sheet, &entities, options)?.chain(options)
+    Ok(Offsetting::new(&sheet, &entities, options)?.chain(options))
 }
 
-fn check_options(options: &ThickenOptions) -> Result<(), ThickenError> {
+pub(super) fn check_options(options: &ThickenOptions) -> Result<(), ThickenError> {
     let check = |option, value: f64, above| {
         let fine = value.is_finite() && value > above;
         if fine { Ok(()) } else { Err(ThickenError::OptionRange { option, value, above }) }
@@ -99,7 +96,7 @@ impl<'a> Offsetting<'a> {
     }
 
     /// Offsets everything.
-    pub(super) fn chain(&self, options: &ThickenOptions) -> Result<OffsetChain, ThickenError> {
+    pub(super) fn chain(&self, options: &ThickenOptions) -> OffsetChain {
         let limit = (options.corners == Corners::Mitre).then_some(options.mitre_limit);
         let rule = ArcRule { chord: options.chord };
         let mut offsets = Offsets::new(self.sheet, self.entities, &self.depth, limit);
@@ -109,7 +106,7 @@ impl<'a> Offsetting<'a> {
         self.push_wedges(&offsets, &disks, &mut chain);
         for closing in &disks.closings {
             let role = if closing.fill { Role::Fill } else { Role::Corner };
-            chain.faces.push(closing.corners);
+            chain.mesh.faces.push(closing.corners);
             chain.origins.push(self.origin(role, closing.corner));
         }
         chain.holes_filled = disks.holes_filled;
@@ -122,8 +119,8 @@ impl<'a> Offsetting<'a> {
                 faces.filter(|(corners, _)| corners.iter().any(is_long)).map(|(_, &f)| f).collect();
         }
         chain.turned = self.sheet.patches_of((0..self.turned.len()).filter(|&f| self.turned[f]));
-        chain.positions = offsets.positions;
-        Ok(chain)
+        chain.mesh.positions = offsets.positions;
+        chain
     }
 
     fn origin(&self, role: Role, corner: u32) -> Origin {
@@ -134,7 +131,7 @@ impl<'a> Offsetting<'a> {
     fn push_tops(&self, offsets: &Offsets, chain: &mut OffsetChain) {
         for u in 0..2 * self.sheet.faces.len() as u32 {
             let front = u.is_multiple_of(2) != self.turned[u as usize / 2];
-            chain.faces.push(offsets.top(u));
+            chain.mesh.faces.push(offsets.top(u));
             let role = if front { Role::FrontWall } else { Role::BackWall };
             chain.origins.push(self.origin(role, 3 * u));
         }
@@ -163,8 +160,8 @@ impl<'a> Offsetting<'a> {
                 disks.push_path(place, entities.node[corner as usize], to, path);
             }
             near.reverse();
-            let before = chain.faces.len();
-            push_strip(&offsets.positions, &near, &far, &mut chain.faces);
+            let before = chain.mesh.faces.len();
+            push_strip(&offsets.positions, &near, &far, &mut chain.mesh.faces);
             let through = places.iter().any(|&place| disks.paths[place] == Path::ThroughNode);
             let turn = entities.turn[edge_use as usize].abs();
             let step = turn < STEP && self.depth[edge_use as usize] != self.depth[next(mate) as usize];
@@ -174,7 +171,7 @@ impl<'a> Offsetting<'a> {
                 Role::Corner
             };
             let origin = self.origin(role, edge_use);
-            chain.origins.extend((before..chain.faces.len()).map(|_| origin));
+            chain.origins.extend((before..chain.mesh.faces.len()).map(|_| origin));
         }
     }
 }

@@ -71,6 +71,11 @@ impl CleanSheet {
         self.faces[f].map(|v| self.positions[v as usize])
     }
 
+    /// The face that a face of the input became; `None` where it was left out.
+    pub(super) fn face_of_source(&self, source: u32) -> Option<usize> {
+        self.sources.binary_search(&source).ok()
+    }
+
     /// The patches of some faces, ascending, each once.
     pub(super) fn patches_of(&self, faces: impl IntoIterator<Item = usize>) -> Vec<u32> {
         let mut patches: Vec<u32> = faces.into_iter().map(|f| self.patches[f]).collect();

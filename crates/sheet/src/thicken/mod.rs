@@ -7,10 +7,12 @@ mod disks;
 mod entities;
 mod error;
 mod half_prism;
+mod measure;
 mod offset_point;
 mod offsets;
 mod options;
 mod orientation;
+mod places;
 mod polar_polygon;
 mod report;
 mod runs;
@@ -22,7 +24,15 @@ pub use error::ThickenError;
 pub use options::{Corners, Side, ThickenOptions, Thickness};
 pub use report::{Origin, Place, PlaceKind, Purged, Role, ThickenReport};
 
-use mesh_kernel::TriMesh;
+use mesh_kernel::merge::{MergeOptions, solid_of_chain};
+use mesh_kernel::query::Crossings;
+use mesh_kernel::{Group, TriMesh};
+
+use chain::{Offsetting, check_options};
+use clean_sheet::CleanSheet;
+use entities::Entities;
+use measure::{pieces, wall_range};
+use places::places;
 
 /// A thickness of more than this many times the sheet's diagonal is refused.
 pub const MAX_THICKNESS: f64 = 10.0;
@@ -45,10 +55,8 @@ pub enum Step {
     Entities,
     /// Their offsets are made.
     Offsets,
-    /// The offsets are united.
+    /// The offsets are united, and what is not on the solid's boundary is purged.
     Union,
-    /// What is not on the boundary is purged.
-    Purge,
     /// The solid is measured.
     Measure,
 }
@@ -68,12 +76,91 @@ pub trait Watcher: Sync {
 pub struct Nobody;
 impl Watcher for Nobody {}
 
-/// Thickens a sheet; its groups are its patches.
+/// Thickens a sheet; its groups are its patches (faces in none are one more).
+///
+/// Nodes in one place are welded; faces without an area, and doubles, are left out. Patches may be wound as they like
+/// where both sides get material; one side needs a two-manifold sheet, whose patches are turned to agree.
+///
+/// ```
+/// use mesh_kernel::TriMesh;
+/// use mesh_kernel::glam::DVec3;
+/// use sheet::thicken::{Nobody, ThickenOptions, thicken};
+///
+/// // A plate of 10 × 20 mm, bent up by 90° to a flange of 10 × 5 mm.
+/// let at = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
+/// let nodes = vec![at(0., 0., 0.), at(10., 0., 0.), at(10., 20., 0.), at(0., 20., 0.), at(0., 0., 5.), at(10., 0., 5.)];
+/// let sheet = TriMesh::new(nodes, vec![[0, 1, 2], [0, 2, 3], [0, 4, 5], [0, 5, 1]]);
+/// let thick = thicken(&sheet, &ThickenOptions::new(1.0), &Nobody)?;
+/// let (d, arc) = (0.5, std::f64::consts::FRAC_PI_4 * 0.25);
+/// let wanted = 10.0 * (2.0 * d * (20.0 + 5.0) - d * d + arc);
+/// assert!(thick.report.closed && (thick.report.volume - wanted).abs() < 1e-9 * wanted);
+/// # Ok::<(), sheet::thicken::ThickenError>(())
+/// ```
+///
+/// # Errors
+/// [`ThickenError`]. O(n log n) in faces of the sheet, plus what crosses.
 pub fn thicken(
     sheet: &TriMesh,
     options: &ThickenOptions,
     watcher: &dyn Watcher,
 ) -> Result<Thickened, ThickenError> {
-    let _ = (sheet, options, watcher);
-    Err(ThickenError::Empty)
+    let begin = |step| {
+        if watcher.cancelled() {
+            return Err(ThickenError::Cancelled);
+        }
+        watcher.step(step);
+        Ok(())
+    };
+    begin(Step::Entities)?;
+    check_options(options)?;
+    let sheet = CleanSheet::new(sheet, options)?;
+    let entities = Entities::new(&sheet);
+    let offsetting = Offsetting::new(&sheet, &entities, options)?;
+    begin(Step::Offsets)?;
+    let chain = offsetting.chain(options);
+    begin(Step::Union)?;
+    let cancelled = || watcher.cancelled();
+    let merge = MergeOptions { cancelled: &cancelled, ..MergeOptions::default() };
+    let united = solid_of_chain(&chain.mesh, &merge)?;
+    begin(Step::Measure)?;
+    let volume = united.volume();
+    let (solid, origins) = by_role(united.mesh, &united.parents, &chain.origins);
+    let pieces = pieces(&solid);
+    let [min_wall, max_wall] = wall_range(&sheet, &chain, &solid, &origins);
+    let report = ThickenReport {
+        faces: solid.faces.len(),
+        closed: pieces.closed,
+        self_intersections: Crossings::new(&solid).self_crossing().len(),
+        volume,
+        components: pieces.solids,
+        genus: pieces.genus,
+        min_wall,
+        max_wall,
+        purged: Purged {
+            laminar: united.purged.laminar,
+            screen: united.purged.screen,
+            wire: united.purged.wire,
+            ..Purged::default()
+        },
+        holes_filled: chain.holes_filled,
+        beads: united.beads,
+        places: places(&sheet, &chain, &solid, &origins),
+        turned: chain.turned,
+    };
+    Ok(Thickened { solid, origins, report })
+}
+
+/// The faces in the order of their roles, each role a group.
+fn by_role(mesh: TriMesh, parents: &[u32], origins: &[Origin]) -> (TriMesh, Vec<Origin>) {
+    let mut order: Vec<(Origin, usize)> =
+        parents.iter().enumerate().map(|(f, &parent)| (origins[parent as usize], f)).collect();
+    order.sort_by_key(|(origin, f)| (origin.role, *f));
+    let mut solid = TriMesh::new(mesh.positions, order.iter().map(|&(_, f)| mesh.faces[f]).collect());
+    let mut first = 0;
+    for same in order.chunk_by(|a, b| a.0.role == b.0.role) {
+        let end = first + same.len() as u32;
+        solid.groups.push(Group { name: same[0].0.role.name().to_owned(), faces: first..end });
+        first = end;
+    }
+    (solid, order.into_iter().map(|(origin, _)| origin).collect())
 }

@@ -19,6 +19,19 @@ pub enum Role {
     Corner,
 }
 
+impl Role {
+    /// The name of the group of faces with this role.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::FrontWall => "front_wall",
+            Self::BackWall => "back_wall",
+            Self::ThicknessFace => "thickness_faces",
+            Self::Fill => "fills",
+            Self::Corner => "corners",
+        }
+    }
+}
+
 /// What a face of the solid came from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Origin {
@@ -87,14 +100,18 @@ pub struct ThickenReport {
     pub components: usize,
     /// Handles of all of them.
     pub genus: usize,
-    /// Thinnest and thickest wall, where both sides of a face are whole.
+    /// Thinnest wall, of the faces whose two sides are whole; zero where there is none.
     pub min_wall: f64,
-    /// See [`ThickenReport::min_wall`].
+    /// Thickest wall; see [`ThickenReport::min_wall`].
     pub max_wall: f64,
     /// What was taken away.
     pub purged: Purged,
     /// Holes of the thickness faces that were filled.
     pub holes_filled: usize,
+    /// Edges and nodes where parts only touched and were joined by a bead.
+    pub beads: usize,
+    /// Patches with faces that were turned so that the sheet has one front; one-sided thickening only.
+    pub turned: Vec<u32>,
     /// Places that deserve a look.
     pub places: Vec<Place>,
 }

@@ -1,0 +1,107 @@
+//! Counts and measures of a thickened sheet.
+
+use glam::DVec3;
+use mesh_kernel::TriMesh;
+
+use super::clean_sheet::CleanSheet;
+use super::{OffsetChain, Origin, Role};
+
+/// A side of a face is whole when its walls have its area but for this share.
+const WHOLE: f64 = 1e-6;
+
+/// What a closed mesh is made of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Pieces {
+    /// Whether every edge has two faces, in opposite directions.
+    pub(super) closed: bool,
+    /// Shells with material inside: connected solids.
+    pub(super) solids: usize,
+    /// Handles of all shells.
+    pub(super) genus: usize,
+}
+
+/// Counts shells and handles. O(n log n).
+pub(super) fn pieces(mesh: &TriMesh) -> Pieces {
+    let mut edges: Vec<(u32, u32, bool)> = Vec::with_capacity(3 * mesh.faces.len());
+    let mut shell: Vec<u32> = (0..mesh.positions.len() as u32).collect();
+    for face in &mesh.faces {
+        for k in 0..3 {
+            let (a, b) = (face[k], face[(k + 1) % 3]);
+            edges.push((a.min(b), a.max(b), a < b));
+            let (ra, rb) = (root(&mut shell, a), root(&mut shell, b));
+            shell[ra.max(rb) as usize] = ra.min(rb);
+        }
+    }
+    edges.sort_unstable();
+    let closed =
+        edges.len().is_multiple_of(2)
+            && edges.chunks(2).all(|e| (e[0].0, e[0].1) == (e[1].0, e[1].1) && !e[0].2 && e[1].2)
+            && edges.chunks(2).zip(edges.chunks(2).skip(1)).all(|(e, f)| (e[0].0, e[0].1) != (f[0].0, f[0].1));
+    let middle = mesh.bounds().map_or(DVec3::ZERO, |[lo, hi]| 0.5 * (lo + hi));
+    let mut volume = vec![0.0; mesh.positions.len()];
+    let mut used = vec![false; mesh.positions.len()];
+    for (f, face) in mesh.faces.iter().enumerate() {
+        let [a, b, c] = mesh.corners(f as u32).map(|p| p - middle);
+        volume[root(&mut shell, face[0]) as usize] += a.dot(b.cross(c));
+        face.iter().for_each(|&v| used[v as usize] = true);
+    }
+    let nodes = used.iter().filter(|u| **u).count();
+    let shells = (0..shell.len()).filter(|&v| used[v] && shell[v] as usize == v).count();
+    let solids = (0..shell.len()).filter(|&v| used[v] && shell[v] as usize == v && volume[v] > 0.0).count();
+    // Σ (2 − 2 genus) = v − e + f.
+    let euler = nodes as i64 - (edges.len() / 2) as i64 + mesh.faces.len() as i64;
+    let genus = ((2 * shells as i64 - euler) / 2).max(0) as usize;
+    Pieces { closed, solids, genus }
+}
+
+/// The representative of `v`, with paths halved on the way.
+pub(super) fn root(parents: &mut [u32], mut v: u32) -> u32 {
+    while parents[v as usize] != v {
+        parents[v as usize] = parents[parents[v as usize] as usize];
+        v = parents[v as usize];
+    }
+    v
+}
+
+/// The thinnest and the thickest wall over the middles of the sheet's faces whose two sides are whole in the solid;
+/// zeros where there is none. O(n).
+pub(super) fn wall_range(
+    sheet: &CleanSheet,
+    chain: &OffsetChain,
+    solid: &TriMesh,
+    origins: &[Origin],
+) -> [f64; 2] {
+    let sides = |mesh: &TriMesh, origins: &[Origin]| {
+        let mut areas = vec![[0.0; 2]; sheet.faces.len()];
+        for (f, origin) in origins.iter().enumerate() {
+            if let (Some(side), Some(face)) = (side_of(origin.role), sheet.face_of_source(origin.face)) {
+                areas[face][side] += mesh.area_normal(f as u32).length();
+            }
+        }
+        areas
+    };
+    let (ideal, found) = (sides(&chain.mesh, &chain.origins), sides(solid, origins));
+    let mut middles = vec![[DVec3::ZERO; 2]; sheet.faces.len()];
+    for (f, origin) in chain.origins.iter().enumerate() {
+        if let (Some(side), Some(face)) = (side_of(origin.role), sheet.face_of_source(origin.face)) {
+            middles[face][side] = chain.mesh.corners(f as u32).iter().sum::<DVec3>() / 3.0;
+        }
+    }
+    let mut range: Option<[f64; 2]> = None;
+    for f in 0..sheet.faces.len() {
+        let whole = (0..2).all(|s| (found[f][s] - ideal[f][s]).abs() <= WHOLE * ideal[f][s]);
+        if whole {
+            let wall = sheet.normals[f].dot(middles[f][0] - middles[f][1]).abs();
+            range = Some(range.map_or([wall; 2], |[lo, hi]| [lo.min(wall), hi.max(wall)]));
+        }
+    }
+    range.unwrap_or_default()
+}
+
+fn side_of(role: Role) -> Option<usize> {
+    match role {
+        Role::FrontWall => Some(0),
+        Role::BackWall => Some(1),
+        Role::ThicknessFace | Role::Fill | Role::Corner => None,
+    }
+}
