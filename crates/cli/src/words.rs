@@ -299,7 +299,7 @@ impl Unit {
 /// Make a solid of a sheet: walls, corners at folds, joints of any number of sheets, strips along free edges.
 ///
 /// The solid is closed and does not cross itself: it can be printed. A group of the sheet is a patch; a group of the solid
-/// is a part of it (front_wall, back_wall, thickness_face, fill, corner). The solid has the sheet's unit; GLB is in metres.
+/// is a part of it (front_wall, back_wall, thickness_faces, fills, corners). The solid has the sheet's unit; GLB is in metres.
 ///
 /// Example: toile thicken bracket.obj --thickness 2 -o bracket.stl
 ///

@@ -82,9 +82,7 @@ fn refusal(error: ThickenFileError, words: &Thicken) -> Failure {
         }
         ThickenFileError::Thickness(ThicknessError::NoSuchPatch { .. }) => (words.sheet.as_path(), None),
         ThickenFileError::Thickness(_) => (list.unwrap_or(&words.sheet), None),
-        ThickenFileError::Sheet(_) if words.side != WallSide::Both => {
-            (words.sheet.as_path(), Some("--side both takes any sheet"))
-        }
+        ThickenFileError::NotOneSided { .. } => (words.sheet.as_path(), Some("--side both takes any sheet")),
         ThickenFileError::Sheet(_) | ThickenFileError::Coordinates(_) => (words.sheet.as_path(), None),
     };
     let failure = Failure::from(error).about(about);
@@ -104,7 +102,7 @@ impl Watcher for Steps<'_> {
         self.speech.step(match step {
             Step::Entities => "finding folds, joints and free edges",
             Step::Offsets => "offsetting",
-            Step::Union => "uniting the offsets",
+            Step::Union => "uniting the offsets and purging what is inside",
             Step::Measure => "measuring",
         });
     }

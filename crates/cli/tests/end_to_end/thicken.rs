@@ -122,7 +122,7 @@ fn every_format_holds_the_same_solid() {
     for format in ["obj", "glb"] {
         let mesh = read(&folder.join(&format!("solid.{format}")));
         let names: Vec<&str> = mesh.groups.iter().map(|g| g.name.as_str()).collect();
-        for part in ["front_wall", "back_wall", "thickness_face"] {
+        for part in ["front_wall", "back_wall", "thickness_faces"] {
             assert!(names.contains(&part), "{format}: {names:?}");
         }
     }

@@ -47,9 +47,17 @@ pub enum ThickenFileError {
     /// The thicknesses do not fit the sheet.
     #[error(transparent)]
     Thickness(#[from] ThicknessError),
+    /// One side was asked for where it is not clear which that is.
+    #[error("{source}; the patches there are {patches}")]
+    NotOneSided {
+        /// Where.
+        source: ThickenError,
+        /// Names of the patches that meet.
+        patches: String,
+    },
     /// The sheet could not be thickened.
     #[error(transparent)]
-    Sheet(#[from] ThickenError),
+    Sheet(ThickenError),
     /// The solid could not be given the coordinates that the file can hold.
     #[error("the solid is too fine for the coordinates of the file: {0}")]
     Coordinates(MergeError),
@@ -87,7 +95,7 @@ pub fn thicken(
     options.corners = settings.corners;
     options.chord = settings.chord;
     options.mitre_limit = settings.mitre_limit.unwrap_or(options.mitre_limit);
-    let thickened = sheet::thicken::thicken(&mesh, &options, &clock)?;
+    let thickened = sheet::thicken::thicken(&mesh, &options, &clock).map_err(|e| refusal(e, sheet))?;
     clock.begin("placing");
     let target = place::Target { unit, format: settings.format };
     let cancelled = || watcher.cancelled();
@@ -111,6 +119,19 @@ pub fn thicken(
     }
     report.step_seconds = clock.end();
     Ok(ThickenedFile { bytes, report })
+}
+
+/// Names what the sheet room counts.
+fn refusal(source: ThickenError, sheet: &TriMesh) -> ThickenFileError {
+    match &source {
+        ThickenError::NonManifold { patches, .. } | ThickenError::NotOrientable { patches, .. } => {
+            let names = thickness::patch_names(sheet);
+            let of = |patch: &u32| names.get(*patch as usize).cloned().unwrap_or_default();
+            let patches = thickness::listed(&patches.iter().map(of).collect::<Vec<_>>());
+            ThickenFileError::NotOneSided { source, patches }
+        }
+        _ => ThickenFileError::Sheet(source),
+    }
 }
 
 /// A unit, and what is to be said about it.

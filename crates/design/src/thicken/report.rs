@@ -30,6 +30,10 @@ pub struct ThickenFileReport {
     pub purged: Purged,
     /// Holes of the thickness faces that were filled.
     pub holes_filled: usize,
+    /// Edges and nodes where parts only touched and were joined by a bead.
+    pub beads: usize,
+    /// Patches that were turned so that the sheet has one front.
+    pub turned: Vec<String>,
     /// The whole command.
     pub seconds: f64,
     /// The file of the solid.
@@ -59,7 +63,7 @@ pub struct SheetFacts {
     pub patches: usize,
 }
 
-/// Triangles of a solid by their part.
+/// Triangles of a solid by their part, named as its groups.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Roles {
     /// Walls on the front.
@@ -67,11 +71,11 @@ pub struct Roles {
     /// Walls on the back.
     pub back_wall: usize,
     /// Strips along free edges.
-    pub thickness_face: usize,
+    pub thickness_faces: usize,
     /// What closes holes.
-    pub fill: usize,
+    pub fills: usize,
     /// Outer sides of folds.
-    pub corner: usize,
+    pub corners: usize,
 }
 
 /// A place that deserves a look, its patches by name.
@@ -123,6 +127,8 @@ impl ThickenFileReport {
             max_wall: report.max_wall,
             purged: report.purged,
             holes_filled: report.holes_filled,
+            beads: report.beads,
+            turned: report.turned.iter().map(named).collect(),
             seconds: 0.0,
             file: String::new(),
             sheet: SheetFacts {
@@ -154,16 +160,6 @@ impl ThickenFileReport {
 /// All roles, in the order of the groups.
 const ROLES: [Role; 5] = [Role::FrontWall, Role::BackWall, Role::ThicknessFace, Role::Fill, Role::Corner];
 
-fn name(role: Role) -> &'static str {
-    match role {
-        Role::FrontWall => "front_wall",
-        Role::BackWall => "back_wall",
-        Role::ThicknessFace => "thickness_face",
-        Role::Fill => "fill",
-        Role::Corner => "corner",
-    }
-}
-
 /// The solid with its faces in order of their roles, a group each, and how many there are of each.
 pub(super) fn grouped_by_role(solid: TriMesh, origins: &[Origin]) -> (TriMesh, Roles) {
     let mut order: Vec<u32> = (0..solid.faces.len() as u32).collect();
@@ -177,12 +173,12 @@ pub(super) fn grouped_by_role(solid: TriMesh, origins: &[Origin]) -> (TriMesh, R
         *match role {
             Role::FrontWall => &mut roles.front_wall,
             Role::BackWall => &mut roles.back_wall,
-            Role::ThicknessFace => &mut roles.thickness_face,
-            Role::Fill => &mut roles.fill,
-            Role::Corner => &mut roles.corner,
+            Role::ThicknessFace => &mut roles.thickness_faces,
+            Role::Fill => &mut roles.fills,
+            Role::Corner => &mut roles.corners,
         } = count;
         if count > 0 {
-            groups.push(Group { name: name(role).to_owned(), faces: first..first + count as u32 });
+            groups.push(Group { name: role.name().to_owned(), faces: first..first + count as u32 });
             first += count as u32;
         }
     }
@@ -203,8 +199,8 @@ mod tests {
         let (mesh, counts) = grouped_by_role(mesh, &origins);
         assert_eq!(mesh.faces, [[0, 1, 3], [0, 3, 2], [0, 2, 1], [1, 2, 3]]);
         let groups: Vec<_> = mesh.groups.iter().map(|g| (g.name.as_str(), g.faces.clone())).collect();
-        assert_eq!(groups, [("back_wall", 0..2), ("corner", 2..4)]);
-        assert_eq!((counts.back_wall, counts.corner, counts.front_wall), (2, 2, 0));
+        assert_eq!(groups, [("back_wall", 0..2), ("corners", 2..4)]);
+        assert_eq!((counts.back_wall, counts.corners, counts.front_wall), (2, 2, 0));
     }
 
     #[test]

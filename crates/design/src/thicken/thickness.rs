@@ -177,7 +177,7 @@ pub(super) fn patch_names(sheet: &TriMesh) -> Vec<String> {
 }
 
 /// Names for a message, the first few of many.
-fn listed(names: &[String]) -> String {
+pub(super) fn listed(names: &[String]) -> String {
     const SHOWN: usize = 12;
     if names.iter().all(String::is_empty) {
         return "one patch without a name".to_owned();
