@@ -66,7 +66,7 @@ fn the_sample_sheet_is_the_one_described() {
 
 /// An open box with a bulging front and leaning walls, parted once across and once along. Its nodes are those of a
 /// lattice, so that patches share them: three patches meet wherever a partition stands on another patch, four where the
-/// one along ends on the one across.
+/// one along ends on the one across. The fronts of floor and walls look inward.
 fn desk_tray() -> TriMesh {
     /// Cells of the lattice from back to front, from left to right, from the floor up.
     const CELLS: [u32; 3] = [12, 10, 5];
@@ -97,8 +97,8 @@ fn desk_tray() -> TriMesh {
     let patches: [Patch; 7] = [
         ("floor", [0, 0, 0], [0, 1], [x, y]),
         ("back", [0, 0, 0], [1, 2], [y, z]),
-        ("front", [x, 0, 0], [1, 2], [y, z]),
-        ("left", [0, 0, 0], [0, 2], [x, z]),
+        ("front", [x, 0, 0], [2, 1], [z, y]),
+        ("left", [0, 0, 0], [2, 0], [z, x]),
         ("right", [0, y, 0], [0, 2], [x, z]),
         ("across", [ACROSS, 0, 0], [1, 2], [y, HEIGHT]),
         ("along", [0, ALONG, 0], [0, 2], [ACROSS, HEIGHT]),
