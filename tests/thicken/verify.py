@@ -293,8 +293,8 @@ def main():
     if given.what == "seed":
         return run([seeded(seed) for seed in given.seeds], bench, given.processes)
     if given.what == "short":
-        return run(short_cases(given.count or 60), bench, given.processes)
-    given.count = given.count or 1000
+        return run(short_cases(60 if given.count is None else given.count), bench, given.processes)
+    given.count = 1000 if given.count is None else given.count
     with tempfile.TemporaryDirectory() as folder:
         return run(long_cases(given, Path(folder)), bench, given.processes)
 
