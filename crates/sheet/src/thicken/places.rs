@@ -131,6 +131,21 @@ fn connected(sheet: &CleanSheet, at_nodes: &FacesAtNodes, flagged: &[usize]) -> 
         .collect()
 }
 
+/// An edge of the solid between walls of two faces of the sheet.
+struct Contact {
+    patches: [u32; 2],
+    /// The cell of a grid that it lies in.
+    cell: [i64; 3],
+    faces: [usize; 2],
+    at: DVec3,
+}
+
+impl Contact {
+    fn key(&self) -> ([u32; 2], [i64; 3], [usize; 2]) {
+        (self.patches, self.cell, self.faces)
+    }
+}
+
 /// Where two walls of the solid meet whose faces are not connected near there.
 fn grown_together(
     sheet: &CleanSheet,
@@ -149,7 +164,7 @@ fn grown_together(
     }
     sides.sort_unstable();
     let own_face = |f: u32| sheet.face_of_source(origins[f as usize].face);
-    let mut pairs: Vec<([u32; 2], [i64; 3], [usize; 2], DVec3)> = Vec::new();
+    let mut contacts: Vec<Contact> = Vec::new();
     for edge in sides.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
         let [(a, b, f), (_, _, g)] = edge else { continue };
         let (Some(f), Some(g)) = (own_face(*f), own_face(*g)) else { continue };
@@ -160,27 +175,28 @@ fn grown_together(
         let at = 0.5 * (solid.positions[*a as usize] + solid.positions[*b as usize]);
         let patches = [sheet.patches[f], sheet.patches[g]];
         let cell = (at / reach).floor().to_array().map(|x| x as i64);
-        pairs.push(([patches[0].min(patches[1]), patches[0].max(patches[1])], cell, [f, g], at));
+        let patches = [patches[0].min(patches[1]), patches[0].max(patches[1])];
+        contacts.push(Contact { patches, cell, faces: [f, g], at });
     }
-    pairs.sort_by(|a, b| (a.0, a.1, a.2).cmp(&(b.0, b.1, b.2)).then(a.3.x.total_cmp(&b.3.x)));
+    contacts.sort_by(|a, b| a.key().cmp(&b.key()).then(a.at.x.total_cmp(&b.at.x)));
     let mut search = Search { sheet, at_nodes, stamp: vec![0; sheet.faces.len()], now: 0, queue: Vec::new() };
     let mut spots = Vec::new();
-    for cell in pairs.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+    for cell in contacts.chunk_by(|a, b| (a.patches, a.cell) == (b.patches, b.cell)) {
         let step = cell.len().div_ceil(PAIRS_PER_CELL);
         let apart: Vec<_> = cell
             .iter()
             .step_by(step)
-            .filter(|(_, _, [f, g], at)| !search.connects(*f, *g, *at, reach))
+            .filter(|c| !search.connects(c.faces[0], c.faces[1], c.at, reach))
             .collect();
         if apart.is_empty() {
             continue;
         }
-        let mut faces: Vec<usize> = cell.iter().flat_map(|pair| pair.2).collect();
+        let mut faces: Vec<usize> = cell.iter().flat_map(|c| c.faces).collect();
         faces.sort_unstable();
         faces.dedup();
-        let mut patches = cell[0].0.to_vec();
+        let mut patches = cell[0].patches.to_vec();
         patches.dedup();
-        let at = apart.iter().map(|pair| pair.3).sum::<DVec3>() / apart.len() as f64;
+        let at = apart.iter().map(|c| c.at).sum::<DVec3>() / apart.len() as f64;
         spots.push(Spot { at, patches, faces: faces.len() });
     }
     // Cells follow curves: one place where they touch would be better than many, so the grid is widened once.
