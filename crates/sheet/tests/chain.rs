@@ -14,6 +14,7 @@ fn options(t: f64, corners: Corners) -> ThickenOptions {
 
 fn assert_closed(name: &str, chain: &OffsetChain) {
     let mut edges: Vec<(u32, u32, i32)> = chain
+        .mesh
         .faces
         .iter()
         .flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)])
