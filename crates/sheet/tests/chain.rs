@@ -1,5 +1,8 @@
 //! The chain of offsets: closed on every sheet, with the volume that formulas give.
 
+// A test that cannot go on fails.
+#![allow(clippy::unwrap_used)]
+
 mod sheet_models;
 
 use std::f64::consts::PI;
@@ -14,6 +17,7 @@ fn options(t: f64, corners: Corners) -> ThickenOptions {
 
 fn assert_closed(name: &str, chain: &OffsetChain) {
     let mut edges: Vec<(u32, u32, i32)> = chain
+        .mesh
         .faces
         .iter()
         .flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)])
@@ -106,16 +110,6 @@ fn folds_and_joints_with_cells_wider_than_the_depth_are_exact() {
             assert_volume("closed box", &closed, &options(t, Corners::Mitre), mitred, 1e-12);
             assert_volume("closed box", &closed, &options(t, Corners::Round), rounded, 1e-12);
         }
-    }
-}
-
-#[test]
-fn a_pyramid_of_any_facets_has_a_sphere_at_its_apex() {
-    // By Steiner's formula on the outer side of a convex roof without its rim, and the inner side cut off exactly.
-    for n in [4, 5, 36] {
-        let sheet = models::pyramid(n, 1.0);
-        let chain = offset_chain(&sheet, &ThickenOptions::new(1.0)).unwrap();
-        assert_closed("pyramid", &chain);
     }
 }
 

@@ -53,6 +53,41 @@ pub(super) fn flat_parts(nodes: &[Seen], outline: usize) -> Parts {
     Parts { triangles, together: Vec::new() }
 }
 
+/// Turns edges so that no triangle has all its corners on one side of the face. Nodes on a side are a little off its line, and
+/// one that stands out would leave a triangle as thin as that; put onto the side because the face beyond was that thin, it
+/// would leave that face again. `sides_of` tells for a node the sides that it is on, a bit each.
+pub(super) fn turn_flat(triangles: &mut [[u32; 3]], sides_of: impl Fn(u32) -> u8) {
+    let common = |t: &[u32; 3]| t.iter().fold(u8::MAX, |all, v| all & sides_of(*v));
+    for _ in 0..triangles.len() {
+        let mut turned = false;
+        for i in 0..triangles.len() {
+            let side = common(&triangles[i]);
+            if side == 0 {
+                continue;
+            }
+            for k in 0..3 {
+                let t = triangles[i];
+                let (p, q, r) = (t[k], t[(k + 1) % 3], t[(k + 2) % 3]);
+                let beyond = triangles.iter().enumerate().find_map(|(j, t)| {
+                    let m = (0..3).find(|&m| t[m] == q && t[(m + 1) % 3] == p)?;
+                    Some((j, t[(m + 2) % 3]))
+                });
+                if let Some((j, x)) = beyond
+                    && sides_of(x) & side == 0
+                {
+                    triangles[i] = [p, x, r];
+                    triangles[j] = [x, q, r];
+                    turned = true;
+                    break;
+                }
+            }
+        }
+        if !turned {
+            return;
+        }
+    }
+}
+
 /// An outline in rings that pass no node twice; where it runs back the way it came nothing is left.
 fn simple_rings(nodes: &[Seen], outline: usize) -> Vec<Vec<u32>> {
     let mut rings = Vec::new();

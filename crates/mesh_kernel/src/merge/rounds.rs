@@ -7,7 +7,7 @@
 //! only ever replaced by faces with the same boundary, and nodes that come to one place are made one: a closed chain stays
 //! closed, and no face is farther from the input than the cells that nodes moved by.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -16,7 +16,7 @@ use super::MergeError;
 use super::box_tree::BoxTree;
 use super::complex::{Complex, distinct};
 use super::curves::{Course, Curves, Placed};
-use super::cut_face::{Parts, Seen, cut, flat_parts};
+use super::cut_face::{Parts, Seen, cut, flat_parts, turn_flat};
 use super::exact::{between, flat_area, plane_axes, volume};
 use super::inspect::{Fix, Line, inspect};
 use super::meeting::{Corners, Edge, Finding, Mark, Verdict, dominant_axis, edge, meet};
@@ -30,6 +30,8 @@ const MOST_DOUBLINGS: u32 = 14;
 const CAPTURE: f64 = 2.0;
 /// Edges that would cross farther than this many times that distance beyond the end of one do not cross.
 const OVERSHOOT: f64 = 4.0;
+/// Parts that all faces together are cut into, times their number, after which a knot is reported.
+const MOST_PARTS: usize = 200;
 /// Rounds after which a knot is reported.
 const MAX_ROUNDS: u32 = 40;
 
@@ -49,6 +51,7 @@ pub(super) fn resolve(
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Result<Effort, MergeError> {
     let mut effort = Effort::default();
+    let first_faces = complex.faces.len();
     let mut layers: Vec<BoxTree> = Vec::new();
     let mut new: Vec<u32> = complex.present().collect();
     loop {
@@ -61,7 +64,7 @@ pub(super) fn resolve(
         if findings.is_empty() {
             return Ok(effort);
         }
-        if round == MAX_ROUNDS {
+        if round == MAX_ROUNDS || complex.faces.len() > MOST_PARTS * (first_faces + MOST_PARTS) {
             return Err(MergeError::Tangled { faces: new.len() });
         }
         effort.rounds += 1;
@@ -443,12 +446,14 @@ impl<'a> Round<'a> {
         let rep = |v: u32| self.same.rep(v);
         // The outline.
         let mut outline: Vec<(u32, Course)> = Vec::new();
+        let mut sides: BTreeMap<u32, u8> = BTreeMap::new();
         for k in 0..3 {
             let (a, b) = (corners.nodes[k], corners.nodes[(k + 1) % 3]);
             let course = Course::Edge(edge(a, b));
             match self.curves.get(course) {
                 Some(curve) => {
                     let nodes = &self.curves.list[curve as usize].nodes;
+                    nodes.iter().for_each(|n| *sides.entry(*n).or_default() |= 1 << k);
                     let count = nodes.len() - 1;
                     if a < b {
                         outline.extend(nodes[..count].iter().map(|n| (*n, course)));
@@ -515,7 +520,7 @@ impl<'a> Round<'a> {
                 );
             }
         }
-        Some(Prepared { nodes: View { axis, seen: nodes }, outline: count, lines, turned })
+        Some(Prepared { nodes: View { axis, seen: nodes }, outline: count, lines, sides, turned })
     }
 
     /// Cuts all faces and puts their parts into the complex; returns all faces that are new.
@@ -578,6 +583,8 @@ struct Prepared {
     nodes: View,
     outline: usize,
     lines: Vec<Line>,
+    /// The sides that nodes of the outline are on, a bit each.
+    sides: BTreeMap<u32, u8>,
     /// Whether the face is seen from behind; `None` for a face without area.
     turned: Option<bool>,
 }
@@ -592,7 +599,9 @@ impl Prepared {
             self.nodes.seen.iter_mut().for_each(|s| s.x = -s.x);
         }
         let lines: Vec<[u32; 2]> = self.lines.iter().filter(|l| !l.border).map(|l| l.ends).collect();
-        cut(&self.nodes.seen, self.outline, &lines)
+        let mut parts = cut(&self.nodes.seen, self.outline, &lines);
+        turn_flat(&mut parts.triangles, |v| self.sides.get(&v).copied().unwrap_or(0));
+        parts
     }
 }
 

@@ -131,6 +131,16 @@ fn connected(sheet: &CleanSheet, at_nodes: &FacesAtNodes, flagged: &[usize]) -> 
         .collect()
 }
 
+/// Two faces of the sheet whose walls meet, and where. In the order of fields.
+#[derive(Clone, Copy, Debug)]
+struct Pair {
+    patches: [u32; 2],
+    /// Cell of a grid.
+    cell: [i64; 3],
+    faces: [usize; 2],
+    at: DVec3,
+}
+
 /// Where two walls of the solid meet whose faces are not connected near there.
 fn grown_together(
     sheet: &CleanSheet,
@@ -149,38 +159,42 @@ fn grown_together(
     }
     sides.sort_unstable();
     let own_face = |f: u32| sheet.face_of_source(origins[f as usize].face);
-    let mut pairs: Vec<([u32; 2], [i64; 3], [usize; 2], DVec3)> = Vec::new();
+    let mut pairs: Vec<Pair> = Vec::new();
     for edge in sides.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
         let [(a, b, f), (_, _, g)] = edge else { continue };
         let (Some(f), Some(g)) = (own_face(*f), own_face(*g)) else { continue };
         if f == g || sheet.faces[f].iter().any(|v| sheet.faces[g].contains(v)) {
             continue;
         }
-        let [f, g] = [f.min(g), f.max(g)];
         let at = 0.5 * (solid.positions[*a as usize] + solid.positions[*b as usize]);
-        let patches = [sheet.patches[f], sheet.patches[g]];
-        let cell = (at / reach).floor().to_array().map(|x| x as i64);
-        pairs.push(([patches[0].min(patches[1]), patches[0].max(patches[1])], cell, [f, g], at));
+        let (p, q) = (sheet.patches[f], sheet.patches[g]);
+        pairs.push(Pair {
+            patches: [p.min(q), p.max(q)],
+            cell: (at / reach).floor().to_array().map(|x| x as i64),
+            faces: [f.min(g), f.max(g)],
+            at,
+        });
     }
-    pairs.sort_by(|a, b| (a.0, a.1, a.2).cmp(&(b.0, b.1, b.2)).then(a.3.x.total_cmp(&b.3.x)));
+    let key = |pair: &Pair| (pair.patches, pair.cell);
+    pairs.sort_by_key(|pair| (key(pair), pair.faces));
     let mut search = Search { sheet, at_nodes, stamp: vec![0; sheet.faces.len()], now: 0, queue: Vec::new() };
     let mut spots = Vec::new();
-    for cell in pairs.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-        let step = cell.len().div_ceil(PAIRS_PER_CELL);
-        let apart: Vec<_> = cell
+    for cell in pairs.chunk_by(|a, b| key(a) == key(b)) {
+        let apart: Vec<DVec3> = cell
             .iter()
-            .step_by(step)
-            .filter(|(_, _, [f, g], at)| !search.connects(*f, *g, *at, reach))
+            .step_by(cell.len().div_ceil(PAIRS_PER_CELL))
+            .filter(|pair| !search.connects(pair.faces, pair.at, reach))
+            .map(|pair| pair.at)
             .collect();
         if apart.is_empty() {
             continue;
         }
-        let mut faces: Vec<usize> = cell.iter().flat_map(|pair| pair.2).collect();
+        let mut faces: Vec<usize> = cell.iter().flat_map(|pair| pair.faces).collect();
         faces.sort_unstable();
         faces.dedup();
-        let mut patches = cell[0].0.to_vec();
+        let mut patches = cell[0].patches.to_vec();
         patches.dedup();
-        let at = apart.iter().map(|pair| pair.3).sum::<DVec3>() / apart.len() as f64;
+        let at = apart.iter().sum::<DVec3>() / apart.len() as f64;
         spots.push(Spot { at, patches, faces: faces.len() });
     }
     // Cells follow curves: one place where they touch would be better than many, so the grid is widened once.
@@ -198,7 +212,7 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// Whether face `g` is reached from face `f` over faces that come within `reach` of a point.
-    fn connects(&mut self, f: usize, g: usize, at: DVec3, reach: f64) -> bool {
+    fn connects(&mut self, [f, g]: [usize; 2], at: DVec3, reach: f64) -> bool {
         self.now += 1;
         self.queue.clear();
         self.queue.push(f);

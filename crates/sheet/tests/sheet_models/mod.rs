@@ -106,7 +106,7 @@ pub(crate) fn fan(angles: &[f64], leg: f64, n: usize) -> TriMesh {
 
 /// 100 × 60 × 40, open above; with a partition across the middle when asked.
 pub(crate) fn open_box(n: usize, partition: bool) -> TriMesh {
-    let (w, d, h) = (100.0, 60.0, 40.0);
+    let (d, h) = (60.0, 40.0);
     let stops: &[f64] = if partition { &[0.0, 50.0, 100.0] } else { &[0.0, 100.0] };
     let mut patches = Patches::default();
     for x in stops.windows(2) {
@@ -116,7 +116,6 @@ pub(crate) fn open_box(n: usize, partition: bool) -> TriMesh {
             .plane([x[0], 0., 0.], along, [0., 0., h], n, n)
             .plane([x[0], d, 0.], along, [0., 0., h], n, n);
     }
-    let _ = w;
     for &x in stops {
         patches = patches.plane([x, 0., 0.], [0., d, 0.], [0., 0., h], n, n);
     }
@@ -207,7 +206,6 @@ pub(crate) fn moebius(n: usize) -> TriMesh {
 /// Two flanges of 20 joined by a bend of 90° with a radius of `radius`, width 30.
 pub(crate) fn bent_strip(radius: f64, n: usize, m: usize) -> TriMesh {
     let arc = radius * FRAC_PI_2;
-    let total = 40.0 + arc;
     // Cells: m along each flange, n along the bend.
     let stops: Vec<f64> = (0..m)
         .map(|i| 20.0 * i as f64 / m as f64)
@@ -215,7 +213,6 @@ pub(crate) fn bent_strip(radius: f64, n: usize, m: usize) -> TriMesh {
         .chain((0..=m).map(|i| 20.0 + arc + 20.0 * i as f64 / m as f64))
         .collect();
     let count = stops.len() - 1;
-    let _ = total;
     Patches::default()
         .grid(count, 6, |u, v| {
             let s = stops[(u * count as f64).round() as usize];
