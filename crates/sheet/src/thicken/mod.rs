@@ -17,6 +17,7 @@ mod polar_polygon;
 mod report;
 mod runs;
 mod sphere_patch;
+mod tight;
 mod wedges;
 
 pub use chain::{OffsetChain, offset_chain};
