@@ -227,17 +227,28 @@ impl<'a> Round<'a> {
         }
     }
 
-    /// A node of what meets that is so near to the place where it does that it serves.
+    /// A node of what meets that is so near to the place where it does that it serves. Nodes made for the same edges
+    /// count: where several faces go through one line, what crosses one of them there crosses all.
     fn captor(&self, mark: Mark, place: DVec3) -> Option<u32> {
         let radius = CAPTURE * self.near;
         let near = |v: &u32| self.complex.at[*v as usize].distance_squared(place) <= radius * radius;
+        let on = |edge: Edge| self.node_near([Course::Edge(edge)], place);
         match mark {
-            Mark::EdgesCross(one, other) => one.into_iter().chain(other).find(near),
+            Mark::EdgesCross(one, other) => {
+                one.into_iter().chain(other).find(near).or_else(|| on(one)).or_else(|| on(other))
+            }
             Mark::EdgeThroughFace(edge, face) => {
-                edge.into_iter().chain(self.complex.faces[face as usize].nodes).find(near)
+                let corners = self.complex.faces[face as usize].nodes;
+                edge.into_iter().chain(corners).find(near).or_else(|| on(edge))
             }
             _ => None,
         }
+    }
+
+    /// A node on one of some curves that is so near to a place that it serves.
+    fn node_near<const N: usize>(&self, courses: [Course; N], place: DVec3) -> Option<u32> {
+        let curves = courses.into_iter().filter_map(|course| self.curves.get(course));
+        curves.filter_map(|c| self.curves.near(c, place, CAPTURE * self.near, &self.complex.at)).next()
     }
 
     fn place_on_edge(&mut self, edge: Edge, node: u32) {
@@ -391,13 +402,15 @@ impl<'a> Round<'a> {
                     Crossing::Triple(key) => match self.triple.get(&key) {
                         Some(node) => *node,
                         None => {
-                            let node = self.complex.node(place);
+                            let known = self.node_near(courses, place);
+                            let node = known.unwrap_or_else(|| self.complex.node(place));
                             self.triple.insert(key, node);
                             node
                         }
                     },
                     Crossing::Mark(mark) => {
-                        let node = self.complex.node(place);
+                        let known = self.node_near(courses, place);
+                        let node = known.unwrap_or_else(|| self.complex.node(place));
                         self.node_of.insert(mark, node);
                         node
                     }

@@ -28,12 +28,7 @@ const ONE_POINT: f64 = 0.4;
 const PAST: f64 = 0.5;
 
 /// Makes the offsets of tight face-uses so short that none is turned over.
-pub(super) fn shorten(
-    sheet: &CleanSheet,
-    entities: &Entities,
-    tight: &[bool],
-    offsets: &mut [CornerOffset],
-) {
+pub(super) fn shorten(sheet: &CleanSheet, entities: &Entities, tight: &[bool], offsets: &mut [CornerOffset]) {
     let uses: Vec<u32> = (0..tight.len() as u32).filter(|&u| tight[u as usize]).collect();
     let mut share = vec![1.0f64; offsets.len()];
     for _ in 0..ROUNDS {
