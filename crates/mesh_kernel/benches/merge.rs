@@ -55,7 +55,8 @@ fn unions(c: &mut Criterion) {
         let ours = boolean(&[&a, &b], Boolean::Union, &MergeOptions::default()).expect("tori are closed");
         let theirs = peers.each_ref().map(|(p, f)| Manifold::new(p, f).expect("a torus is manifold"));
         let theirs: Manifold = compute_boolean(&theirs[0], &theirs[1], OpType::Add).expect("a union");
-        println!("union, {name}: volumes differ by {:e}", volume(&theirs) / ours.volume() - 1.0);
+        let difference = volume(&theirs) / ours.volume() - 1.0;
+        assert!(difference.abs() < 1e-11, "{name}: volumes differ by {difference:e}");
     }
 }
 
