@@ -7,6 +7,7 @@
 //! * [`pictures`]: front, back, pattern, features, any model;
 //! * [`model_info`]: what a model holds;
 //! * [`mod@thicken`]: a sheet to a solid's file;
+//! * [`sheet_metal`]: bends, welds and flat plates of a sheet;
 //! * [`units`]: what a file's numbers mean;
 //! * [`output`]: files made in memory, then written.
 
@@ -19,5 +20,6 @@ pub mod output;
 pub mod pictures;
 pub mod regenerate;
 pub mod report;
+pub mod sheet_metal;
 pub mod thicken;
 pub mod units;
