@@ -18,6 +18,8 @@ pub use error::UnfoldError;
 pub use outline::OutlinePoint;
 pub use relief::{Relief, ReliefShape};
 pub use search::Effort;
+pub(crate) use shape::flat_triangles;
+pub(crate) use shape::inside;
 
 use glam::DVec2;
 

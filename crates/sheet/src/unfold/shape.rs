@@ -122,14 +122,31 @@ pub(crate) fn corners(sides: &[TrimmedSide]) -> Vec<DVec2> {
 
 /// Triangles of what lies inside an outer loop and outside the others. Empty where loops cross.
 pub(crate) fn triangulate(loops: &[Vec<DVec2>]) -> Vec<[DVec2; 3]> {
+    let points: Vec<DVec2> = loops.concat();
+    triangulate_numbers(loops).into_iter().map(|t| t.map(|k| points[k])).collect()
+}
+
+/// The same as numbers of the loops' points, counted through all loops; anticlockwise.
+fn triangulate_numbers(loops: &[Vec<DVec2>]) -> Vec<[usize; 3]> {
+    if let [points] = loops
+        && points.len() == 3
+    {
+        let anticlockwise = (points[1] - points[0]).perp_dot(points[2] - points[0]) >= 0.0;
+        return vec![if anticlockwise { [0, 1, 2] } else { [0, 2, 1] }];
+    }
     let mut plane = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
+    // Points in one place are one: the first number of each.
+    let mut numbers = Vec::new();
+    let mut count = 0;
     for points in loops {
         let mut handles = Vec::with_capacity(points.len());
         for p in points {
-            match plane.insert(Point2::new(p.x, p.y)) {
-                Ok(h) => handles.push(h),
-                Err(_) => return Vec::new(),
+            let Ok(handle) = plane.insert(Point2::new(p.x, p.y)) else { return Vec::new() };
+            if handle.index() == numbers.len() {
+                numbers.push(count);
             }
+            handles.push(handle);
+            count += 1;
         }
         for (i, &a) in handles.iter().enumerate() {
             let b = handles[(i + 1) % handles.len()];
@@ -140,9 +157,28 @@ pub(crate) fn triangulate(loops: &[Vec<DVec2>]) -> Vec<[DVec2; 3]> {
     }
     plane
         .inner_faces()
-        .map(|f| f.vertices().map(|v| DVec2::new(v.position().x, v.position().y)))
-        .filter(|t| inside((t[0] + t[1] + t[2]) / 3.0, loops))
+        .map(|f| f.vertices())
+        .filter(|v| {
+            let at = v.map(|v| DVec2::new(v.position().x, v.position().y));
+            inside((at[0] + at[1] + at[2]) / 3.0, loops)
+        })
+        .map(|v| v.map(|v| numbers[v.fix().index()]))
         .collect()
+}
+
+/// Triangles of a plane polygon with holes in space, as numbers of the loops' points, counted through all loops; they are
+/// anticlockwise as the outer loop is.
+pub(crate) fn flat_triangles(loops: &[Vec<DVec3>]) -> Vec<[usize; 3]> {
+    let Some(&o) = loops.first().and_then(|l| l.first()) else { return Vec::new() };
+    let area: DVec3 = loops[0].windows(2).map(|w| (w[0] - o).cross(w[1] - o)).sum();
+    let Some(normal) = area.try_normalize() else { return Vec::new() };
+    let u = normal.any_orthonormal_vector();
+    let v = normal.cross(u);
+    let flat: Vec<Vec<DVec2>> = loops
+        .iter()
+        .map(|l| l.iter().map(|p| DVec2::new((*p - o).dot(u), (*p - o).dot(v))).collect())
+        .collect();
+    triangulate_numbers(&flat)
 }
 
 /// Whether a point lies within an odd number of loops.
