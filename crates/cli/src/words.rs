@@ -47,6 +47,7 @@ pub(crate) enum Command {
     Info(Model),
     Flatten(Flatten),
     Thicken(Thicken),
+    Model(ModelScript),
     Bends(Bends),
     Unfold(Unfold),
     Render(Render),
@@ -311,7 +312,7 @@ impl Unit {
 #[derive(Debug, Args)]
 #[command(verbatim_doc_comment)]
 pub(crate) struct Thicken {
-    /// The sheet: OBJ, PLY, STL, OFF, GLB, or a native body (.body.json).
+    /// The sheet: OBJ, PLY, STL, OFF, GLB, a native body (.body.json), or a script of modelling commands (.json).
     pub(crate) sheet: PathBuf,
     /// How thick, in millimetres, whatever the sheet's unit.
     #[arg(
@@ -388,6 +389,22 @@ fn mitre_limit(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Carry out a script of modelling commands: wires, sheets and solids, drawn, extruded, bent, punched, joined.
+///
+/// A script is JSON: {"toile_script": 1, "commands": [{"do": "create", …}, …]}; docs/sheet-modelling.md tells all commands. bends,
+/// unfold and thicken take scripts too. What is wrong is said with line and command, and nothing is written then.
+///
+/// Example: toile model samples/sheets/bracket.json -o bracket.obj
+#[derive(Debug, Args)]
+#[command(verbatim_doc_comment)]
+pub(crate) struct ModelScript {
+    /// The script.
+    pub(crate) script: PathBuf,
+    /// Where to write the model (OBJ, PLY, STL, OFF or GLB), a group a patch. Without it the script is only tried.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+}
+
 /// Count a sheet's facets, bends, welds, free edges and vertices, and find out what bends and what is welded.
 ///
 /// Facets are the groups of the file, or what lies in one plane; how finely they are triangulated does not matter.
@@ -396,7 +413,7 @@ fn mitre_limit(text: &str) -> Result<f64, String> {
 #[derive(Debug, Args)]
 #[command(verbatim_doc_comment)]
 pub(crate) struct Bends {
-    /// The sheet: OBJ, PLY, STL, OFF, GLB, or a native body (.body.json).
+    /// The sheet: OBJ, PLY, STL, OFF, GLB, a native body (.body.json), or a script of modelling commands (.json).
     pub(crate) sheet: PathBuf,
     /// What is one facet: a group of the file (of two and more), or what lies in one plane of a group.
     #[arg(long, value_enum, default_value_t = Facets::Auto)]
@@ -439,7 +456,7 @@ impl Facets {
 #[derive(Debug, Args)]
 #[command(verbatim_doc_comment)]
 pub(crate) struct Unfold {
-    /// The sheet: OBJ, PLY, STL, OFF, GLB, or a native body (.body.json).
+    /// The sheet: OBJ, PLY, STL, OFF, GLB, a native body (.body.json), or a script of modelling commands (.json).
     pub(crate) sheet: PathBuf,
     /// Where to write the plates: .dxf (layers CUT, BEND, WELD, TEXT) or .svg.
     #[arg(short, long, value_name = "FILE")]

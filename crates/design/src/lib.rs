@@ -1,5 +1,6 @@
 //! The document and the pipeline: template and body in, garment, pattern, pictures and report out.
 //!
+//! * [`modelling`]: scripts of modelling commands;
 //! * [`mod@regenerate`]: features → construction → flattening → pieces → files;
 //! * [`batch`]: the same for many bodies;
 //! * [`report`]: the keys of `report.json`;
@@ -16,6 +17,7 @@ pub mod document;
 mod fingerprint;
 mod garment_pattern;
 pub mod model_info;
+pub mod modelling;
 pub mod output;
 pub mod pictures;
 pub mod regenerate;

@@ -9,6 +9,7 @@ pub(crate) mod form;
 #[cfg(test)]
 mod fuzz;
 pub(crate) mod info;
+pub(crate) mod model;
 pub(crate) mod regenerate;
 pub(crate) mod render;
 pub(crate) mod thicken;
@@ -42,17 +43,26 @@ fn read_body(path: &Path) -> Result<Body, Failure> {
 /// A native body is welded at its joints; of any other file the groups are the patches.
 fn read_sheet(path: &Path) -> Result<TriMesh, Failure> {
     if !is_body_file(path) {
-        return read_mesh(path);
+        // A script of modelling commands is a sheet too.
+        return if extension(path) == "json" { script_sheet(path) } else { read_mesh(path) };
     }
     let mesh = read_body(path)?.to_tri_mesh();
     if mesh.faces.is_empty() { Err(Failure::new("the body has no faces").about(path)) } else { Ok(mesh) }
+}
+
+fn script_sheet(path: &Path) -> Result<TriMesh, Failure> {
+    let mesh = model::run_script(path)?.mesh;
+    if mesh.faces.is_empty() {
+        return Err(Failure::new("the script makes no faces, only wires").about(path));
+    }
+    Ok(mesh)
 }
 
 /// Millimetres in one unit of a sheet: said, told by the format, or guessed from its size and thickness.
 fn unit_of_sheet(said: Option<Unit>, path: &Path, sheet: &TriMesh, thickness: f64) -> f64 {
     match said {
         Some(unit) => unit.millimetres(),
-        None if is_body_file(path) => 1.0,
+        None if is_body_file(path) || extension(path) == "json" => 1.0,
         None if Format::of_path(path) == Some(Format::Glb) => 1000.0,
         None => units::guess_of_sheet(sheet, thickness),
     }

@@ -38,6 +38,7 @@ use glam::DVec3;
 use mesh_kernel::complex::{Complex, EdgeId, Editor, FaceId, Loop, VertexId};
 use mesh_kernel::{Group, TriMesh};
 
+use crate::bends::forest::Roots;
 use crate::unfold::flat_triangles;
 
 /// Limits of what a model is made of, so that no script takes all memory or time.
@@ -56,6 +57,11 @@ impl Default for Limits {
         Self { tolerance: 0.05, points: 2000, faces: 20_000 }
     }
 }
+
+/// Faces of one patch that turn by more than that, in radians, and by less than the next, are strips of a curve: what turns less is
+/// plane and was drawn as two faces, what turns more is a fold.
+const FLAT_TURN: f64 = 1e-6;
+const SMOOTH_TURN: f64 = 0.55;
 
 /// What is known of a model besides its complex.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -199,14 +205,50 @@ impl Model {
         true
     }
 
-    /// The faces as triangles, a group a patch. Wires have none. O(n log n).
+    /// The faces as triangles, a group a face, apart from strips of one patch that make a curve: these are one group. Groups are
+    /// named after their patches, with a number where there are several. Wires have none. O(n log n).
     pub fn to_mesh(&self) -> TriMesh {
-        self.mesh_of(|_| true, |f| self.tables.patch_of.get(&f).copied().unwrap_or(0))
+        let groups = self.smooth_parts();
+        let mut mesh = self.mesh_of(|_| true, |f| groups.get(&f).copied().unwrap_or(f.0));
+        let names: Vec<String> = mesh.groups.iter().map(|g| g.name.clone()).collect();
+        let mut seen: BTreeMap<String, usize> = BTreeMap::new();
+        for group in &mut mesh.groups {
+            let all = names.iter().filter(|n| **n == group.name).count();
+            if all > 1 {
+                let number = seen.entry(group.name.clone()).or_default();
+                *number += 1;
+                group.name = format!("{}-{number}", group.name);
+            }
+        }
+        mesh
     }
 
-    /// The faces as triangles, a group a face, each named after its patch.
-    pub fn to_facet_mesh(&self) -> TriMesh {
-        self.mesh_of(|_| true, |f| f.0)
+    /// The first face of the curved strip that every face belongs to.
+    fn smooth_parts(&self) -> BTreeMap<FaceId, u32> {
+        let complex = self.complex();
+        let bound = complex.faces().last().map_or(0, |f| f.index() + 1);
+        let mut parts = Roots::new(bound);
+        let normal: BTreeMap<FaceId, DVec3> = complex
+            .faces()
+            .map(|f| {
+                (
+                    f,
+                    self.corners_of(f)
+                        .first()
+                        .map_or(DVec3::ZERO, |c| build::area_vector(c).normalize_or_zero()),
+                )
+            })
+            .collect();
+        for e in complex.edges() {
+            let [a, b] = complex.uses(e)[..] else { continue };
+            let one_patch = self.tables.patch_of.get(&a.face) == self.tables.patch_of.get(&b.face);
+            let other = if a.along == b.along { -normal[&b.face] } else { normal[&b.face] };
+            let turn = normal[&a.face].cross(other).length().atan2(normal[&a.face].dot(other));
+            if one_patch && turn > FLAT_TURN && turn < SMOOTH_TURN {
+                parts.union(b.face.0, a.face.0);
+            }
+        }
+        complex.faces().map(|f| (f, parts.find(f.0))).collect()
     }
 
     /// Some faces as triangles, grouped by a number.
