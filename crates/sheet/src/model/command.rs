@@ -1,0 +1,444 @@
+//! Modelling commands as data.
+
+use std::collections::BTreeSet;
+
+use glam::DVec3;
+use mesh_kernel::complex::EdgeId;
+use serde::{Deserialize, Serialize};
+use sketch::Outline;
+
+use super::corners::Replacement;
+use super::extrude::{Along, Profile};
+use super::wire::{drawn, polyline};
+use super::{ExtrusionCase, Model, ModelError, WorkPlane};
+
+/// What is done with edges of a wire that lie along its extrusion and are no sides of sheets (fig. 6.18).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum AlongWire {
+    /// The command is refused.
+    #[default]
+    Refuse,
+    /// They stay wires.
+    Keep,
+    /// They go.
+    Drop,
+}
+
+/// What becomes of edges in one place when sheets are joined (figs. 6.15–6.16).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum JoinEdges {
+    /// One edge of all.
+    #[default]
+    Merge,
+    /// They stay, and share their corners.
+    Keep,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// A modelling command. In JSON an object with `"do"`, the command's name, and its fields. Lengths in millimetres, angles in
+/// degrees; points in space are `[x, y, z]`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "do", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Command {
+    /// Nodes and links: drawings on a plane, polylines in space. It may branch.
+    Wire {
+        /// Its name.
+        name: String,
+        /// Drawings.
+        #[serde(default)]
+        drawings: Vec<Outline>,
+        /// The plane on which they lie.
+        #[serde(default)]
+        plane: WorkPlane,
+        /// Polylines in space; closed where the last point is the first.
+        #[serde(default)]
+        lines: Vec<Vec<DVec3>>,
+    },
+    /// A wire or a drawing becomes sheets, or a solid, along a direction or a path.
+    Extrude {
+        /// Name of the patch.
+        name: String,
+        /// The wire; it is used up.
+        #[serde(default)]
+        wire: Option<String>,
+        /// Or a drawing.
+        #[serde(default)]
+        outline: Option<Outline>,
+        /// The drawing's plane.
+        #[serde(default)]
+        plane: WorkPlane,
+        /// Direction and distance.
+        #[serde(default)]
+        by: Option<DVec3>,
+        /// Or a path in space.
+        #[serde(default)]
+        along: Option<Vec<DVec3>>,
+        /// Or a path drawn on a plane.
+        #[serde(default)]
+        path: Option<Outline>,
+        /// The path's plane.
+        #[serde(default)]
+        path_plane: WorkPlane,
+        /// Whether the profile turns with the path.
+        #[serde(default = "yes")]
+        turn: bool,
+        /// Whether both ends are closed, so that it is a solid.
+        #[serde(default)]
+        solid: bool,
+        /// What becomes of edges along the direction.
+        #[serde(default)]
+        edges_along: AlongWire,
+    },
+    /// A sheet from a drawing.
+    Create {
+        /// Name of the patch.
+        name: String,
+        /// Its outline.
+        outline: Outline,
+        /// Its holes.
+        #[serde(default)]
+        holes: Vec<Outline>,
+        /// The plane of both.
+        #[serde(default)]
+        plane: WorkPlane,
+    },
+    /// A face through points, joined to what is there; to a new patch or an old one.
+    Add {
+        /// Name of the patch.
+        name: String,
+        /// Its corners.
+        points: Vec<DVec3>,
+    },
+    /// A hole in a patch.
+    Punch {
+        /// The patch.
+        patch: String,
+        /// The hole.
+        outline: Outline,
+        /// Its plane; the hole is projected along the plane's normal.
+        #[serde(default)]
+        plane: WorkPlane,
+    },
+    /// A part of a sheet is turned about a line.
+    Bend {
+        /// The patch that moves, with all that hangs on it.
+        moving: String,
+        /// The line: an edge, or from border to border of a face, which is cut there (the part to the left of it moves).
+        about: [DVec3; 2],
+        /// By what angle, right-handed about the line.
+        angle: f64,
+    },
+    /// Edges become faces along a direction or a path.
+    Sweep {
+        /// Name of the new patch.
+        name: String,
+        /// Corners along edges that are there.
+        edges: Vec<DVec3>,
+        /// Direction and distance.
+        #[serde(default)]
+        by: Option<DVec3>,
+        /// Or a path in space.
+        #[serde(default)]
+        along: Option<Vec<DVec3>>,
+        /// Whether the edges turn with the path.
+        #[serde(default)]
+        turn: bool,
+    },
+    /// A part of a sheet is moved, and walls join it to the rest.
+    Draw {
+        /// The patch.
+        patch: String,
+        /// Name of the new patch: walls and bottom.
+        name: String,
+        /// What is drawn.
+        outline: Outline,
+        /// Its plane.
+        #[serde(default)]
+        plane: WorkPlane,
+        /// Direction and distance.
+        by: DVec3,
+        /// Size of the bottom, as a share of the outline's.
+        #[serde(default = "one")]
+        scale: f64,
+    },
+    /// A fold becomes an arc, or corners of a face are rounded.
+    Round {
+        /// The fold's ends.
+        #[serde(default)]
+        edge: Option<[DVec3; 2]>,
+        /// Or corners.
+        #[serde(default)]
+        corners: Vec<DVec3>,
+        /// The radius.
+        radius: f64,
+        /// Name of the arc's patch; that of the first face where there is none.
+        #[serde(default)]
+        name: String,
+    },
+    /// An edge becomes a plane.
+    Chamfer {
+        /// The edge's ends.
+        edge: [DVec3; 2],
+        /// How far the plane's middle is from the edge.
+        depth: f64,
+        /// Name of the plane's patch; that of the first face where there is none.
+        #[serde(default)]
+        name: String,
+    },
+    /// Sheets are joined where they touch.
+    Join {
+        /// The patches; all where none is named.
+        #[serde(default)]
+        patches: Vec<String>,
+        /// What becomes of edges in one place.
+        #[serde(default)]
+        edges: JoinEdges,
+        /// Whether sheets are first cut where they touch or cross.
+        #[serde(default)]
+        split: bool,
+    },
+    /// Patches are taken away; of a volume a sheet is left.
+    Remove {
+        /// The patches.
+        patches: Vec<String>,
+    },
+    /// Says that a patch has unlimited material behind it.
+    Partial {
+        /// The patch.
+        patch: String,
+    },
+    /// Adds a solid to a partial model.
+    AddSolid {
+        /// The solid's patch.
+        solid: String,
+        /// The partial patch.
+        to: String,
+    },
+    /// Takes the last command back.
+    Undo {},
+    /// Does the command undone last again.
+    Redo {},
+}
+
+/// What a command did, besides changing the model.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Done {
+    /// Which case an extrusion was.
+    pub extrusion: Option<ExtrusionCase>,
+    /// Vertices that a join made one with others.
+    pub merged_vertices: usize,
+    /// Edges that a join made of several.
+    pub merged_edges: Vec<EdgeId>,
+}
+
+impl Command {
+    /// Its name in scripts.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Wire { .. } => "wire",
+            Self::Extrude { .. } => "extrude",
+            Self::Create { .. } => "create",
+            Self::Add { .. } => "add",
+            Self::Punch { .. } => "punch",
+            Self::Bend { .. } => "bend",
+            Self::Sweep { .. } => "sweep",
+            Self::Draw { .. } => "draw",
+            Self::Round { .. } => "round",
+            Self::Chamfer { .. } => "chamfer",
+            Self::Join { .. } => "join",
+            Self::Remove { .. } => "remove",
+            Self::Partial { .. } => "partial",
+            Self::AddSolid { .. } => "add_solid",
+            Self::Undo {} => "undo",
+            Self::Redo {} => "redo",
+        }
+    }
+}
+
+/// One of a direction and paths.
+const WHERE_TO: ModelError =
+    ModelError::Number { what: "where to", wanted: "given by one of \"by\", \"along\" and \"path\"" };
+
+impl Model {
+    /// What a command does, within a transaction.
+    pub(super) fn carry_out(&mut self, command: &Command) -> Result<Done, ModelError> {
+        let mut done = Done::default();
+        match command {
+            Command::Wire { name, drawings, plane, lines } => {
+                let mut all = Vec::new();
+                for d in drawings {
+                    all.push(drawn(d, plane, &self.limits)?);
+                }
+                for l in lines {
+                    all.push(polyline(l, &self.limits)?);
+                }
+                self.make_wire(name, &all)?;
+            }
+            Command::Extrude { .. } => done.extrusion = Some(self.extrude(command)?),
+            Command::Create { name, outline, holes, plane } => self.create(name, outline, holes, plane)?,
+            Command::Add { name, points } => self.add(name, points)?,
+            Command::Punch { patch, outline, plane } => {
+                self.punch(patch, outline, plane)?;
+            }
+            Command::Bend { moving, about: [from, to], angle } => {
+                finite(&[*from, *to])?;
+                self.bend(*from, *to, moving, angle.to_radians())?;
+            }
+            Command::Sweep { name, edges, by, along, turn } => {
+                done.extrusion = Some(self.sweep_edges(name, edges, *by, along.as_deref(), *turn)?);
+            }
+            Command::Draw { patch, name, outline, plane, by, scale } => {
+                self.draw(patch, outline, plane, *by, *scale, name)?;
+            }
+            Command::Round { edge, corners, radius, name } => {
+                if edge.is_none() == corners.is_empty() {
+                    return Err(ModelError::Number {
+                        what: "what is rounded",
+                        wanted: "an edge, or corners",
+                    });
+                }
+                if let Some([from, to]) = edge {
+                    finite(&[*from, *to])?;
+                    self.replace_edge(*from, *to, Replacement::Round(*radius), name)?;
+                }
+                for at in corners {
+                    self.round_corner(*at, *radius)?;
+                }
+            }
+            Command::Chamfer { edge: [from, to], depth, name } => {
+                finite(&[*from, *to])?;
+                self.replace_edge(*from, *to, Replacement::Chamfer(*depth), name)?;
+            }
+            Command::Join { patches, edges, split } => done = self.join(patches, *edges, *split)?,
+            Command::Remove { patches } => self.remove(patches)?,
+            Command::Partial { patch } => self.make_partial(patch)?,
+            Command::AddSolid { solid, to } => self.add_to_partial(solid, to)?,
+            Command::Undo {} | Command::Redo {} => {}
+        }
+        Ok(done)
+    }
+
+    fn extrude(&mut self, command: &Command) -> Result<ExtrusionCase, ModelError> {
+        let Command::Extrude {
+            name,
+            wire,
+            outline,
+            plane,
+            by,
+            along,
+            path,
+            path_plane,
+            turn,
+            solid,
+            edges_along,
+        } = command
+        else {
+            return Ok(ExtrusionCase::Plain);
+        };
+        let (profile, known, wire_edges) = match (wire, outline) {
+            (Some(wire), None) => {
+                let found = self.tables.wires.get(wire);
+                let wire = found.ok_or_else(|| ModelError::NoWire { name: wire.clone() })?.clone();
+                let ends = wire.edges.iter().filter_map(|e| self.complex().ends(*e));
+                let known: BTreeSet<_> = ends.flatten().collect();
+                (self.profile_of(&wire.edges, &wire.leaves), known, wire.edges)
+            }
+            (None, Some(outline)) => {
+                let drawing = drawn(outline, plane, &self.limits)?;
+                (Profile::of_points(&drawing.points, drawing.closed), BTreeSet::new(), Vec::new())
+            }
+            _ => {
+                return Err(ModelError::Number {
+                    what: "what is extruded",
+                    wanted: "a \"wire\" or an \"outline\"",
+                });
+            }
+        };
+        let drawn_path = match (along, path) {
+            (Some(points), None) => Some(polyline(points, &self.limits)?),
+            (None, Some(path)) => Some(drawn(path, path_plane, &self.limits)?),
+            _ => None,
+        };
+        let to = match (by, &drawn_path) {
+            (Some(by), None) if along.is_none() && path.is_none() => {
+                finite(&[*by])?;
+                Along::By(*by)
+            }
+            (None, Some(p)) => Along::Path { points: &p.points, closed: p.closed, turn: *turn },
+            _ => return Err(WHERE_TO),
+        };
+        if let Along::Path { points, .. } = &to {
+            distinct(points)?;
+        }
+        let (case, kept) = self.extrude_profile(name, &profile, &to, *edges_along, *solid, known.clone())?;
+        if let Some(wire) = wire {
+            let kept: BTreeSet<EdgeId> = kept.into_iter().map(|l| wire_edges[l]).collect();
+            let gone: BTreeSet<EdgeId> = wire_edges.iter().copied().filter(|e| !kept.contains(e)).collect();
+            self.tables.wires.remove(wire);
+            self.sweep_up(&gone, &known)?;
+        }
+        Ok(case)
+    }
+
+    fn sweep_edges(
+        &mut self,
+        name: &str,
+        corners: &[DVec3],
+        by: Option<DVec3>,
+        along: Option<&[DVec3]>,
+        turn: bool,
+    ) -> Result<ExtrusionCase, ModelError> {
+        finite(corners)?;
+        let mut edges: Vec<EdgeId> = Vec::new();
+        for w in corners.windows(2) {
+            edges.extend(self.edges_along(w[0], w[1])?);
+        }
+        let mut seen = BTreeSet::new();
+        edges.retain(|e| seen.insert(*e));
+        if edges.is_empty() {
+            return Err(ModelError::Number {
+                what: "the edges swept",
+                wanted: "given by two corners and more",
+            });
+        }
+        let profile = self.profile_of(&edges, &std::collections::BTreeMap::new());
+        let known: BTreeSet<_> = edges.iter().filter_map(|e| self.complex().ends(*e)).flatten().collect();
+        let path = along.map(|p| polyline(p, &self.limits)).transpose()?;
+        let to = match (by, &path) {
+            (Some(by), None) => {
+                finite(&[by])?;
+                Along::By(by)
+            }
+            (None, Some(p)) => Along::Path { points: &p.points, closed: p.closed, turn },
+            _ => return Err(WHERE_TO),
+        };
+        if let Along::Path { points, .. } = &to {
+            distinct(points)?;
+        }
+        Ok(self.extrude_profile(name, &profile, &to, AlongWire::Refuse, false, known)?.0)
+    }
+}
+
+fn finite(points: &[DVec3]) -> Result<(), ModelError> {
+    if points.iter().all(|p| p.is_finite()) {
+        Ok(())
+    } else {
+        Err(ModelError::Number { what: "coordinates", wanted: "finite numbers" })
+    }
+}
+
+fn distinct(path: &[DVec3]) -> Result<(), ModelError> {
+    if path.windows(2).any(|w| w[0].distance(w[1]) <= super::SAME_POINT) {
+        return Err(ModelError::Number { what: "the path", wanted: "made of points apart from each other" });
+    }
+    Ok(())
+}
