@@ -67,4 +67,7 @@ pub enum SketchError {
     /// Branches cannot be ordered.
     #[error("branches {0} and {1} leave in one direction with one curvature")]
     SameBranch(usize, usize),
+    /// A plane that is seen from its edge.
+    #[error("the camera sees the plane of the sketch from its edge; turn the view and draw again")]
+    SeenEdgeOn,
 }

@@ -1,5 +1,8 @@
-//! Drawings in the plane: curves, and outlines made of them.
+//! Drawings: curves in the plane and outlines made of them; strokes on a screen that become profiles in space.
 //!
+//! * [`Camera`]: places to pixels and back; [`Stroke`], [`Stabiliser`]: what a hand draws, made steady;
+//! * [`pick_edges`]: which template edges a stroke means; [`fitted_plane`], [`bisecting_plane`], [`profiles`]: what it makes of
+//!   them (Wang et al., feature templates, section 4.1.4);
 //! * [`Curve`]: line, arc, Bézier curve, spline, each with points, tangents, curvatures and length;
 //! * [`Outline`]: what a person draws, as data: a rectangle, a circle, a polygon, curves end to end;
 //! * [`Path`]: curves end to end, checked, to be sampled to a tolerance.
@@ -18,13 +21,21 @@
 //! ```
 
 mod branches;
+mod camera;
 mod curve;
 mod error;
 mod outline;
 mod path;
+mod pick;
+mod profile;
+mod stroke;
 
 pub use branches::{Branch, order_of_branches};
+pub use camera::{Camera, Plane, Projection, Ray};
 pub use curve::{Curve, NearestPoint};
 pub use error::SketchError;
 pub use outline::Outline;
 pub use path::{Path, PathPoint};
+pub use pick::{Clear, PICK_DISTANCE, PickOptions, PickedEdge, Sight, SpaceEdge, pick_edges};
+pub use profile::{DrawnProfile, ProfileOptions, bisecting_plane, fitted_plane, profiles};
+pub use stroke::{Stabiliser, Stroke};
