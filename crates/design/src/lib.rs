@@ -3,6 +3,7 @@
 //! * [`modelling`]: scripts of modelling commands;
 //! * [`mod@regenerate`]: features → construction → flattening → pieces → files;
 //! * [`batch`]: the same for many bodies;
+//! * [`draft`]: a design that is being made: commands, undo, journal, autosave;
 //! * [`report`]: the keys of `report.json`;
 //! * [`document`]: the file `design.toile`;
 //! * [`pictures`]: front, back, pattern, features, any model;
@@ -14,6 +15,7 @@
 
 pub mod batch;
 pub mod document;
+pub mod draft;
 mod fingerprint;
 mod garment_pattern;
 pub mod model_info;

@@ -140,7 +140,23 @@ pub fn regenerate(
     let started = Instant::now();
     let body = human::extract(raw, &HumanOptions::default())?;
     let features = started.elapsed().as_secs_f64();
+    let mut made = regenerate_on(template, file, body, settings, progress)?;
+    made.report.seconds.features = features;
+    Ok(made)
+}
 
+/// The same on a body whose features are known; the extraction's seconds stay 0.
+///
+/// # Errors
+/// [`RegenerateError`]; nothing is changed then.
+pub fn regenerate_on(
+    template: &Template,
+    file: &str,
+    body: HumanBody,
+    settings: &Settings,
+    progress: &(dyn Fn(&str) -> bool + Sync),
+) -> Result<Regenerated, RegenerateError> {
+    let go_on = |step: &str| if progress(step) { Ok(()) } else { Err(RegenerateError::Cancelled) };
     go_on("building the garment")?;
     let started = Instant::now();
     let reference = Reference { mesh: &body.mesh, features: &body.features };
@@ -163,7 +179,6 @@ pub fn regenerate(
     let flatten = started.elapsed().as_secs_f64();
 
     let mut report = Report::new(template, file, &body, &garment, &pattern);
-    report.seconds.features = features;
     report.seconds.construct = construct;
     report.seconds.flatten = flatten;
     let document = Document::new(template, settings.levels, file, &body, &garment);

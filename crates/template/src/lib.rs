@@ -29,7 +29,7 @@ pub use error::TemplateError;
 pub use garment::{
     Garment, GarmentLine, GarmentPiece, GarmentSurface, Mark, PieceEdge, Seam, Seconds, SurfaceChain,
 };
-pub use place::SCALE_STATURE;
+pub use place::{SCALE_STATURE, node_frame, node_places};
 pub use regenerate::{Progress, Reference, RegenerateOptions, regenerate};
 
 /// A template that was read, checked and written out.
@@ -57,6 +57,15 @@ impl Template {
         format::check::check(&file)?;
         let layout = layout::Layout::new(&file)?;
         Ok(Self { file, layout })
+    }
+
+    /// Checks a template that is being made, which may still lack nodes or surfaces; what is there must make sense.
+    ///
+    /// # Errors
+    /// [`TemplateError::Format`], [`TemplateError::Version`].
+    pub fn check_incomplete(file: &format::TemplateFile) -> Result<(), TemplateError> {
+        format::check::check_incomplete(file)?;
+        layout::Layout::new(file).map(|_| ())
     }
 
     /// The template as it stands in the file.

@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use reference::{FeatureCurve, Features, Frame};
 
+use crate::Reference;
 use crate::encoding::{Offset, decode, decode_axes, encode};
 use crate::error::TemplateError;
-use crate::format::{At, Level, NodeSpec, Scale, Slide};
+use crate::format::{At, Level, NodeSpec, Scale, Slide, TemplateFile};
 use crate::layout::Layout;
 use crate::skin::Skin;
 
@@ -371,6 +372,50 @@ impl<'a> Placing<'a> {
         symmetrise(self.layout, &mut out.positions);
         Ok(out)
     }
+}
+
+/// Where the nodes of a template are on a body, twins included, before ease and collision; the template may be incomplete.
+/// O(nodes · curve points), and once O(faces log faces) for the body.
+///
+/// # Errors
+/// [`TemplateError`]: a feature that the body lacks, curves that do not cross.
+pub fn node_places(
+    file: &TemplateFile,
+    reference: &Reference,
+) -> Result<BTreeMap<String, DVec3>, TemplateError> {
+    let layout = nodes_only(file)?;
+    let skin = Skin::new(reference.mesh);
+    let placing = Placing::new(&layout, reference.features, &skin, file.clearance)?;
+    let placed = placing.place_all(&BTreeMap::new())?;
+    Ok(layout.nodes.iter().map(|n| n.name.clone()).zip(placed.positions).collect())
+}
+
+/// The frame that a node's offsets (`normal`, `first`, `second`) are counted in, after its slide.
+///
+/// # Errors
+/// As [`node_places`]; a node that is placed between others has no frame.
+pub fn node_frame(file: &TemplateFile, node: &str, reference: &Reference) -> Result<Frame, TemplateError> {
+    let layout = nodes_only(file)?;
+    let skin = Skin::new(reference.mesh);
+    let placing = Placing::new(&layout, reference.features, &skin, file.clearance)?;
+    let index = layout.nodes.iter().position(|n| n.name == node);
+    let index =
+        index.ok_or_else(|| TemplateError::format(format!("nodes.{node}"), "there is no such node"))?;
+    placing.frame(index)
+}
+
+fn nodes_only(file: &TemplateFile) -> Result<Layout, TemplateError> {
+    crate::format::check::check_incomplete(file)?;
+    let nodes = TemplateFile {
+        surfaces: BTreeMap::new(),
+        lines: BTreeMap::new(),
+        joints: None,
+        fair_across: Vec::new(),
+        ease: BTreeMap::new(),
+        pieces: BTreeMap::new(),
+        ..file.clone()
+    };
+    Layout::new(&nodes)
 }
 
 fn mirror(p: DVec3) -> DVec3 {

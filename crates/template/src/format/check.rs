@@ -13,6 +13,15 @@ const LONGEST: f64 = 10_000.0;
 pub const DEEPEST: u8 = 8;
 
 pub(crate) fn check(file: &TemplateFile) -> Checked {
+    check_incomplete(file)?;
+    if file.nodes.is_empty() || file.surfaces.is_empty() {
+        return Err(TemplateError::format("", "a template needs nodes and surfaces"));
+    }
+    Ok(())
+}
+
+/// The same for a template that is being made: nodes or surfaces may still be missing.
+pub(crate) fn check_incomplete(file: &TemplateFile) -> Checked {
     if file.toile_template != super::FORMAT_VERSION {
         return Err(TemplateError::Version { found: file.toile_template, known: super::FORMAT_VERSION });
     }
@@ -25,9 +34,6 @@ pub(crate) fn check(file: &TemplateFile) -> Checked {
     length("clearance", file.clearance)?;
     if file.clearance < 0.0 {
         return Err(TemplateError::format("clearance", "must not be negative"));
-    }
-    if file.nodes.is_empty() || file.surfaces.is_empty() {
-        return Err(TemplateError::format("", "a template needs nodes and surfaces"));
     }
     for name in file.nodes.keys().chain(file.surfaces.keys()).chain(file.lines.keys()) {
         if name.trim().is_empty() {

@@ -1,0 +1,156 @@
+//! The body of a draft: a dress form from measurements, or a mesh.
+
+use mesh_kernel::TriMesh;
+use mesh_kernel::glam::DVec3;
+use reference::dress_form::{DressForm, FormOptions, Measurements};
+use reference::human::{self, HumanBody, HumanOptions};
+use serde::{Deserialize, Serialize};
+
+use super::{BuildError, EditError};
+
+/// Where a body comes from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum BodySource {
+    /// A dress form from tape measurements.
+    Form(Measurements),
+    /// A mesh, in its file's own units and axes.
+    Mesh(Mesh),
+}
+
+/// A mesh as it stands in a draft.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mesh {
+    /// Name of the file that it came from.
+    pub file: String,
+    /// Node positions.
+    pub positions: Vec<[f64; 3]>,
+    /// Node indices of the triangles.
+    pub faces: Vec<[u32; 3]>,
+}
+
+impl Default for BodySource {
+    fn default() -> Self {
+        Self::Form(Measurements::default())
+    }
+}
+
+/// A body ready to be worked on, in the canonical frame.
+#[derive(Clone, Debug)]
+pub struct OnBody {
+    /// Its name.
+    pub name: String,
+    /// Mesh and features.
+    pub body: HumanBody,
+}
+
+/// Measurements that a form has, by the names of `toile form`.
+pub const MEASURES: [&str; 14] = [
+    "height",
+    "bust",
+    "underbust",
+    "waist",
+    "high_hip",
+    "hip",
+    "neck",
+    "shoulder_width",
+    "back_length",
+    "upper_arm",
+    "thigh",
+    "knee",
+    "calf",
+    "ankle",
+];
+
+fn field<'a>(m: &'a mut Measurements, name: &str) -> Option<&'a mut Option<f64>> {
+    Some(match name {
+        "height" => &mut m.height,
+        "bust" => &mut m.bust,
+        "underbust" => &mut m.underbust,
+        "waist" => &mut m.waist,
+        "high_hip" => &mut m.high_hip,
+        "hip" => &mut m.hip,
+        "neck" => &mut m.neck,
+        "shoulder_width" => &mut m.shoulder_width,
+        "back_length" => &mut m.back_length,
+        "upper_arm" => &mut m.upper_arm,
+        "thigh" => &mut m.thigh,
+        "knee" => &mut m.knee,
+        "calf" => &mut m.calf,
+        "ankle" => &mut m.ankle,
+        _ => return None,
+    })
+}
+
+/// A measurement of a form, given or derived, cm; `None` for an unknown name or measurements of nobody.
+pub fn measure(measurements: &Measurements, name: &str) -> Option<f64> {
+    measurements.resolve().ok()?.get(name)
+}
+
+/// Gives a measurement (cm) or leaves it to be derived.
+///
+/// # Errors
+/// [`EditError`]: an unknown name, or measurements that nobody has.
+pub fn set_measure(m: &mut Measurements, name: &str, value: Option<f64>) -> Result<(), EditError> {
+    let missing = || EditError::Missing { kind: "measurement", name: name.to_owned() };
+    *field(m, name).ok_or_else(missing)? = value;
+    let refused = |e: reference::dress_form::FormError| EditError::Value {
+        what: name.replace('_', " "),
+        why: e.to_string(),
+    };
+    m.resolve().map(|_| ()).map_err(refused)
+}
+
+impl BodySource {
+    /// Checks that it can be a body's data; whether features are found only building tells.
+    pub(crate) fn check(&self) -> Result<(), EditError> {
+        let bad = |why: String| Err(EditError::Value { what: "body".to_owned(), why });
+        match self {
+            Self::Form(m) => match m.resolve() {
+                Ok(_) => Ok(()),
+                Err(e) => bad(e.to_string()),
+            },
+            Self::Mesh(mesh) => {
+                if mesh.faces.is_empty() {
+                    return bad("its mesh has no faces".to_owned());
+                }
+                if mesh.positions.iter().flatten().any(|v| !v.is_finite()) {
+                    return bad("its mesh has coordinates that are no finite numbers".to_owned());
+                }
+                let nodes = mesh.positions.len() as u32;
+                match mesh.faces.iter().flatten().find(|v| **v >= nodes) {
+                    Some(v) => bad(format!("a face refers to node {v}, but there are only {nodes}")),
+                    None => Ok(()),
+                }
+            }
+        }
+    }
+
+    /// A short name for people.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Form(_) => "dress form".to_owned(),
+            Self::Mesh(mesh) => mesh.file.clone(),
+        }
+    }
+
+    /// The body with its features; `triangles` is about the size of a form. 0.3 s for the usual 22 000 triangles.
+    ///
+    /// # Errors
+    /// [`BuildError`]: measurements of nobody, a mesh that is no upright body.
+    pub fn load(&self, triangles: Option<usize>) -> Result<OnBody, BuildError> {
+        let mesh = match self {
+            Self::Form(m) => {
+                let mut options = FormOptions::default();
+                options.triangles = triangles.unwrap_or(options.triangles);
+                DressForm::build(m, &options)?.mesh
+            }
+            Self::Mesh(mesh) => TriMesh::new(
+                mesh.positions.iter().map(|p| DVec3::from_array(*p)).collect(),
+                mesh.faces.clone(),
+            ),
+        };
+        Ok(OnBody { name: self.name(), body: human::extract(&mesh, &HumanOptions::default())? })
+    }
+}

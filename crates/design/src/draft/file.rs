@@ -1,0 +1,100 @@
+//! Drafts in files: versioned, checked whole before anything is opened.
+
+use serde::{Deserialize, Serialize};
+use template::Template;
+use template::format::TemplateFile;
+
+use super::{BodySource, Draft, DraftFileError, EditError, Mesh};
+use crate::document::Document;
+
+/// Version of the format that this program writes.
+pub const DRAFT_VERSION: u32 = 1;
+
+#[derive(Serialize, Deserialize)]
+struct DraftFile {
+    toile_draft: u32,
+    program: String,
+    draft: Draft,
+}
+
+impl Draft {
+    /// The file's bytes, one line; the same draft gives the same bytes.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let file = DraftFile {
+            toile_draft: DRAFT_VERSION,
+            program: env!("CARGO_PKG_VERSION").to_owned(),
+            draft: self.clone(),
+        };
+        // Maps have text keys, so this cannot fail.
+        let mut bytes = serde_json::to_vec(&file).unwrap_or_default();
+        bytes.push(b'\n');
+        bytes
+    }
+
+    /// Reads a draft, a design of `regenerate`, or a template (on the average form).
+    ///
+    /// # Errors
+    /// [`DraftFileError`]: one message for a file that is cut off, foreign, newer, or contradicts itself.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, DraftFileError> {
+        #[derive(Deserialize)]
+        struct Head {
+            toile_draft: Option<u64>,
+            toile_design: Option<u64>,
+            toile_template: Option<u64>,
+        }
+        let wrong = |e: serde_json::Error| {
+            let text: String = e.to_string().chars().take(300).collect();
+            DraftFileError::Format(text)
+        };
+        let head: Head = serde_json::from_slice(bytes).map_err(wrong)?;
+        let newer = |found: u64, known: u32| {
+            if found > u64::from(known) { Err(DraftFileError::Newer { found, known }) } else { Ok(()) }
+        };
+        let draft = match head {
+            Head { toile_draft: Some(version), .. } => {
+                newer(version, DRAFT_VERSION)?;
+                if version == 0 {
+                    return Err(DraftFileError::Format("there is no format version 0".to_owned()));
+                }
+                serde_json::from_slice::<DraftFile>(bytes).map_err(wrong)?.draft
+            }
+            Head { toile_design: Some(version), .. } => {
+                newer(version, crate::document::DOCUMENT_VERSION)?;
+                let design = Document::from_bytes(bytes)?;
+                let mesh = Mesh {
+                    file: design.body.file,
+                    positions: design.body.positions,
+                    faces: design.body.faces,
+                };
+                Self::new(design.template, BodySource::Mesh(mesh))
+            }
+            Head { toile_template: Some(version), .. } => {
+                newer(version, template::format::FORMAT_VERSION)?;
+                let file: TemplateFile = serde_json::from_slice(bytes).map_err(wrong)?;
+                Self::new(file, BodySource::default())
+            }
+            _ => {
+                return Err(DraftFileError::Format(
+                    "it names no version of a draft, design or template".to_owned(),
+                ));
+            }
+        };
+        draft.check()?;
+        Ok(draft)
+    }
+
+    fn check(&self) -> Result<(), EditError> {
+        Template::check_incomplete(&self.template)?;
+        self.body.check()?;
+        for name in self.wires.iter().flatten() {
+            let nodes = &self.template.nodes;
+            let twin = name.strip_prefix("right_");
+            let twin =
+                twin.is_some_and(|r| nodes.contains_key(&format!("left_{r}")) || nodes.contains_key(r));
+            if !nodes.contains_key(name) && !twin {
+                return Err(EditError::Missing { kind: "node", name: name.clone() });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,86 @@
+//! A design that is being made: a template that may be incomplete, and the body that it is made on.
+//!
+//! [`Draft`] is a value; [`Edit`]s are the only way to change one. [`History`] keeps every state with a label, so undo gives the
+//! bit-equal draft back; [`Command`]s in a [`journal`] replay to the same one.
+
+mod autosave;
+mod body;
+mod build;
+mod edit;
+mod error;
+mod file;
+mod history;
+pub mod journal;
+mod shared;
+mod topology;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+use template::format::TemplateFile;
+
+pub use autosave::{Autosave, Recovery, recoveries, state_folder};
+pub use body::{BodySource, MEASURES, Mesh, OnBody, measure, set_measure};
+pub use build::{BuildError, preview, with_drawn_features};
+pub use edit::Edit;
+pub use error::{DraftFileError, EditError};
+pub use file::DRAFT_VERSION;
+pub use history::{Command, History};
+pub use topology::{edges, faces, joints};
+
+/// A feature curve drawn by hand on the body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DrawnFeature {
+    /// Points, mm, in the body's canonical frame.
+    pub points: Vec<[f64; 3]>,
+    /// Whether it closes.
+    #[serde(default)]
+    pub closed: bool,
+}
+
+/// A design that is being made.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Draft {
+    /// The template; it may still lack nodes or surfaces.
+    pub template: TemplateFile,
+    /// Edges that no face has yet; the names of a pair are in order.
+    #[serde(default, skip_serializing_if = "BTreeSet::is_empty")]
+    pub wires: BTreeSet<[String; 2]>,
+    /// Feature curves drawn by hand.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub features: BTreeMap<String, DrawnFeature>,
+    /// The body; shared, as it may be large.
+    #[serde(with = "shared")]
+    pub body: Arc<BodySource>,
+}
+
+impl Draft {
+    /// A draft of a template on a body.
+    pub fn new(template: TemplateFile, body: BodySource) -> Self {
+        Self { template, wires: BTreeSet::new(), features: BTreeMap::new(), body: Arc::new(body) }
+    }
+
+    /// Nothing but a body: a woman of the average size.
+    pub fn empty() -> Self {
+        let template = TemplateFile {
+            toile_template: template::format::FORMAT_VERSION,
+            name: "New design".to_owned(),
+            description: String::new(),
+            mirrored: true,
+            symmetric: None,
+            level: 3,
+            clearance: 4.0,
+            nodes: BTreeMap::new(),
+            surfaces: BTreeMap::new(),
+            joints: None,
+            lines: BTreeMap::new(),
+            fair_across: Vec::new(),
+            ease: BTreeMap::new(),
+            pieces: BTreeMap::new(),
+        };
+        Self::new(template, BodySource::default())
+    }
+}
