@@ -54,5 +54,6 @@ fn run(command: &Command, speech: &Speech) -> Result<(), Failure> {
         Command::Bends(words) => commands::bends::run(words, speech),
         Command::Unfold(words) => commands::unfold::run(words, speech),
         Command::Render(words) => commands::render::run(words, speech),
+        Command::View(words) => commands::view::run(words),
     }
 }

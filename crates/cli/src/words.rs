@@ -51,6 +51,19 @@ pub(crate) enum Command {
     Bends(Bends),
     Unfold(Unfold),
     Render(Render),
+    View(View),
+}
+
+/// Open the window: design a template on a body, with its pattern beside it.
+///
+/// Example: toile view samples/fitted-bodice.json --body samples/form-12.obj
+#[derive(Debug, Args)]
+pub(crate) struct View {
+    /// A template, a design, or a body's mesh; nothing: an empty template on the average form.
+    pub(crate) file: Option<PathBuf>,
+    /// The body.
+    #[arg(long, value_name = "MESH")]
+    pub(crate) body: Option<PathBuf>,
 }
 
 /// What `regenerate` can write.

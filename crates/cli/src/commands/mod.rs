@@ -14,6 +14,7 @@ pub(crate) mod regenerate;
 pub(crate) mod render;
 pub(crate) mod thicken;
 pub(crate) mod unfold;
+pub(crate) mod view;
 
 use std::path::Path;
 
