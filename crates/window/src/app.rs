@@ -224,7 +224,7 @@ impl Designer {
     fn view_3d(&mut self, ui: &mut egui::Ui) {
         let rect = ui.available_rect_before_wrap();
         let response = ui.allocate_rect(rect, egui::Sense::click_and_drag());
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Image, true, "3D view"));
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "3D view"));
         self.view.paint(ui, rect);
         let local = |p: egui::Pos2| DVec2::new(f64::from(p.x - rect.min.x), f64::from(p.y - rect.min.y));
         if self.tool == Tool::Node {
@@ -398,7 +398,8 @@ impl Designer {
 impl eframe::App for Designer {
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         let context = ui.ctx().clone();
-        let dropped = context.input(|i| i.raw.dropped_files.first().and_then(|f| f.path.clone()));
+        let dropped =
+            context.input(|i| i.raw.dropped_files.first().and_then(|f| f.path().map(|p| p.to_path_buf())));
         if let Some(path) = dropped {
             self.path = path.display().to_string();
             self.open();

@@ -68,7 +68,7 @@ impl Designer {
                 }
                 let label = ui.label("File");
                 ui.text_edit_singleline(&mut self.path).labelled_by(label.id);
-                egui::widgets::global_theme_preference_switch(ui);
+                egui::widgets::global_theme_preference_buttons(ui);
             });
         });
         egui::Panel::bottom("status").show(ui, |ui| {
@@ -164,7 +164,7 @@ impl Designer {
     fn pattern(&mut self, ui: &mut egui::Ui) {
         let size = egui::vec2(ui.available_width(), 260.0);
         let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click());
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Image, true, "Pattern view"));
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Pattern view"));
         let Some(garment) = &self.garment else { return };
         let pattern = &garment.pattern;
         let loops: Vec<(&str, Vec<glam::DVec2>)> = pattern
