@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use glam::DVec3;
 use mesh_kernel::complex::EdgeId;
 use serde::{Deserialize, Serialize};
-use sketch::Outline;
+use sketch::{Outline, Path};
 
 use super::corners::Replacement;
 use super::extrude::{Along, Profile};
@@ -353,6 +353,10 @@ impl Model {
                 (self.profile_of(&wire.edges, &wire.leaves), known, wire.edges)
             }
             (None, Some(outline)) => {
+                if *solid {
+                    // An outline that crosses itself bounds no material.
+                    Path::of(outline)?.simple_loop(self.limits.tolerance)?;
+                }
                 let drawing = drawn(outline, plane, &self.limits)?;
                 (Profile::of_points(&drawing.points, drawing.closed), BTreeSet::new(), Vec::new())
             }
@@ -381,9 +385,17 @@ impl Model {
         }
         let (case, kept) = self.extrude_profile(name, &profile, &to, *edges_along, *solid, known.clone())?;
         if let Some(wire) = wire {
-            let kept: BTreeSet<EdgeId> = kept.into_iter().map(|l| wire_edges[l]).collect();
-            let gone: BTreeSet<EdgeId> = wire_edges.iter().copied().filter(|e| !kept.contains(e)).collect();
+            // Links that are no sides of sheets go, with what they were cut into.
+            let mut gone = BTreeSet::new();
+            for (link, ends) in profile.links.iter().enumerate().filter(|(l, _)| !kept.contains(l)) {
+                let [from, to] = ends.map(|n| profile.nodes[n]);
+                gone.extend(self.edges_along(from, to).unwrap_or_default());
+                gone.insert(wire_edges[link]);
+            }
             self.tables.wires.remove(wire);
+            let others: BTreeSet<EdgeId> =
+                self.tables.wires.values().flat_map(|w| &w.edges).copied().collect();
+            gone.retain(|e| !others.contains(e));
             self.sweep_up(&gone, &known)?;
         }
         Ok(case)
