@@ -355,7 +355,7 @@ impl Model {
             (None, Some(outline)) => {
                 if *solid {
                     // An outline that crosses itself bounds no material.
-                    Path::of(outline)?.simple_loop(self.limits.tolerance)?;
+                    Path::of(outline)?.simple_loop(self.limits.tolerance, self.limits.points)?;
                 }
                 let drawing = drawn(outline, plane, &self.limits)?;
                 (Profile::of_points(&drawing.points, drawing.closed), BTreeSet::new(), Vec::new())
