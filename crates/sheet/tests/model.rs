@@ -463,6 +463,16 @@ fn sheets_are_bent_about_edges_and_across_faces() {
     near(area(&model.to_mesh()), 4000.0, 1e-12);
     assert_eq!((low.x.round(), low.z.round(), high.x, high.z.round()), (60.0, 0.0, 80.0, 60.0));
     assert_eq!(counts(&model), [6, 7, 2, 0, 1, 0, 0]);
+    // Holes stay in their parts; a line through a hole is refused.
+    let punched =
+        r#"{"do": "punch", "patch": "plate", "outline": {"circle": {"center": [20, 25], "radius": 8}}}"#;
+    let mut holed = made(&[PLATE, punched]);
+    let across = |x: f64| {
+        format!(r#"{{"do": "bend", "moving": "plate", "about": [[{x}, 0, 0], [{x}, 50, 0]], "angle": 45}}"#)
+    };
+    assert!(matches!(refused(&mut holed, &across(20.0)), ModelError::LeavesFace { .. }));
+    done(&mut holed, &across(40.0));
+    assert_eq!((holed.complex().face_count(), holed.complex().counts().r), (2, 1));
     // About an edge that is there: back again.
     let mut flat = made(&[
         PLATE,
