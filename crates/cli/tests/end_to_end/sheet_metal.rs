@@ -266,3 +266,37 @@ fn tables_for_people() {
         toile(&["unfold", word(&sample("bracket")), "-o", word(&folder.join("a.svg"))]).succeeded().stdout;
     assert!(text.contains("plate 1") && text.contains("0 overlaps"), "{text}");
 }
+
+#[test]
+fn the_guides_script_runs_and_names_every_command() {
+    let guide = std::fs::read_to_string(root().join("docs/sheet-modelling.md")).unwrap();
+    let script = guide.split("```json\n").nth(1).and_then(|s| s.split("```").next()).unwrap();
+    let folder = Folder::new("sheet-metal-guide");
+    let path = folder.write("guide.json", script);
+    let report =
+        toile(&["model", word(&path), "-o", word(&folder.join("tray.obj")), "--json"]).succeeded().json();
+    assert_eq!((int(&report["commands"]), int(&report["counts"]["f"])), (3, 2));
+    for command in [
+        "wire",
+        "extrude",
+        "create",
+        "add",
+        "punch",
+        "bend",
+        "sweep",
+        "draw",
+        "round",
+        "chamfer",
+        "join",
+        "remove",
+        "partial",
+        "add_solid",
+        "undo",
+    ] {
+        assert!(guide.contains(&format!("| `{command}`")), "{command} is not in the guide");
+    }
+    // Every sample is one that the guide or a test names, and runs.
+    for entry in std::fs::read_dir(root().join("samples/sheets")).unwrap() {
+        toile(&["model", word(&entry.unwrap().path())]).succeeded();
+    }
+}
