@@ -17,11 +17,7 @@ fn open_shapes_are_extruded_straight_and_along_an_arc() {
     let straight =
         made(&[&format!(r#"{{"do": "extrude", "name": "s", "outline": {shape}, "by": [0, 0, 30]}}"#)]);
     near(area(&straight.to_mesh()), 30.0 * (20.0 + 5.0 * std::f64::consts::PI), 0.02);
-    assert_eq!(
-        straight.to_mesh().groups.len(),
-        1,
-        "a line and the arc that goes on from it are one curve"
-    );
+    assert_eq!(straight.to_mesh().groups.len(), 1, "a line and the arc that goes on from it are one curve");
     let along = made(&[&format!(
         r#"{{"do": "extrude", "name": "s", "outline": {shape}, "plane": "xy",
         "path": {{"arc": {{"center": [0, 0], "radius": 60, "from": 0, "to": 90}}}}, "path_plane": {{"origin": [60, 0, 0], "x": [-1, 0, 0], "y": [0, 0, 1]}}}}"#

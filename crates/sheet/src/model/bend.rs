@@ -9,6 +9,9 @@ use super::build::{Builder, SAME_POINT, area_vector, within};
 use super::{Model, ModelError};
 use crate::unfold::inside;
 
+/// The edges of a cut, and the faces to the left of it.
+type Cut = (Vec<EdgeId>, Vec<FaceId>);
+
 impl Model {
     /// Turns what hangs on a patch about a line by an angle in radians, right-handed from `from` to `to`. Where no edge leads from
     /// one point to the other, a face of the patch is first cut there, and the part to the left of the cut is turned.
@@ -106,12 +109,7 @@ impl Model {
     }
 
     /// Cuts a face of a patch from one border point to another. Gives the edge, and the part to the left of it.
-    fn cut(
-        &mut self,
-        from: DVec3,
-        to: DVec3,
-        patch: &str,
-    ) -> Result<Option<(Vec<EdgeId>, Vec<FaceId>)>, ModelError> {
+    fn cut(&mut self, from: DVec3, to: DVec3, patch: &str) -> Result<Option<Cut>, ModelError> {
         let on_border = |corners: &[DVec3], p: DVec3| {
             (0..corners.len()).any(|i| {
                 let (a, b) = (corners[i], corners[(i + 1) % corners.len()]);
