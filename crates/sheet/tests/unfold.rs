@@ -4,7 +4,6 @@
 mod facet_support;
 
 use facet_support::*;
-use glam::DVec2;
 use mesh_kernel::TriMesh;
 use sheet::facets::{FacetRule, FacetSheet};
 use sheet::unfold::{
@@ -191,5 +190,19 @@ fn holes_stay_and_bends_beside_a_hole_are_one_line_in_two_parts() {
     assert!(line(&plate.bends[0]).perp_dot(line(&plate.bends[1])).abs() < 1e-12);
     let counts = sheet.counts(|_| true);
     assert_eq!((counts.g_nm, counts.f), (1, 2));
-    let _ = DVec2::ZERO;
+}
+
+#[test]
+fn a_wall_welded_inside_a_facet_leaves_a_mark_and_no_cut() {
+    let mut mesh = TriMesh::default();
+    add_grid(&mut mesh, "floor", p(0., 0., 0.), p(30., 0., 0.), p(0., 30., 0.), 3, 3);
+    add_grid(&mut mesh, "rib", p(10., 10., 0.), p(10., 0., 0.), p(0., 0., 5.), 1, 1);
+    add_grid(&mut mesh, "fin", p(0., 20., 0.), p(10., 0., 0.), p(0., 0., 5.), 1, 1);
+    let (_, found) = flat(&mesh, &UnfoldOptions::default());
+    let floor = &found.plates[0];
+    // The rib's foot lies inside, the fin's begins at the border: neither is cut.
+    assert_eq!((found.plates.len(), floor.outlines.len(), floor.outlines[0].len()), (3, 1, 5));
+    assert!((area(floor) - 900.0).abs() < 1e-9 && (outline_length(floor) - 120.0).abs() < 1e-9);
+    let lengths: Vec<f64> = floor.welds.iter().map(|w| w.ends[0].distance(w.ends[1])).collect();
+    assert_eq!(lengths, [10.0, 10.0]);
 }

@@ -271,7 +271,7 @@ impl Curve {
             Self::Line { .. } => vec![0.0, 1.0],
             Self::Arc { radius, sweep, .. } => {
                 let step = 2.0 * (1.0 - (tolerance / radius).min(0.5)).acos();
-                let parts = (sweep.abs() / step.max(1e-4)).ceil().clamp(2.0, 1e5) as u32;
+                let parts = (sweep.abs() / step.max(1e-6)).ceil().clamp(2.0, 1e4) as u32;
                 even(parts + parts % 2)
             }
             _ => {

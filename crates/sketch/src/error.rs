@@ -64,6 +64,12 @@ pub enum SketchError {
         /// The radius.
         radius: f64,
     },
+    /// More points than allowed.
+    #[error("the drawing has more than {most} points: take a larger tolerance")]
+    TooFine {
+        /// How many are allowed.
+        most: usize,
+    },
     /// Branches cannot be ordered.
     #[error("branches {0} and {1} leave in one direction with one curvature")]
     SameBranch(usize, usize),

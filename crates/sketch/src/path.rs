@@ -76,17 +76,28 @@ impl Path {
     /// Points between which the path is no farther than `tolerance` from its chords. The first point of a closed path is not
     /// repeated. O(points).
     pub fn sampled(&self, tolerance: f64) -> Vec<PathPoint> {
+        self.sampled_within(tolerance, usize::MAX).unwrap_or_default()
+    }
+
+    /// The same, for drawings of which nothing is known: no more than `most` points.
+    ///
+    /// # Errors
+    /// [`SketchError::TooFine`].
+    pub fn sampled_within(&self, tolerance: f64, most: usize) -> Result<Vec<PathPoint>, SketchError> {
         let mut points = Vec::new();
         for (k, curve) in self.curves.iter().enumerate() {
             let parameters = curve.parameters(tolerance);
             for (i, t) in parameters[..parameters.len() - 1].iter().enumerate() {
                 points.push(PathPoint { at: curve.point(*t), curve: k, corner: i == 0 });
             }
+            if points.len() > most {
+                return Err(SketchError::TooFine { most });
+            }
         }
         if !self.closed {
             points.push(PathPoint { at: self.end(), curve: self.curves.len() - 1, corner: true });
         }
-        points
+        Ok(points)
     }
 
     /// How the path leaves its beginning and, walked back, its end.
@@ -99,16 +110,17 @@ impl Path {
         ]
     }
 
-    /// Corners of the closed, sampled path, anticlockwise, if it neither crosses nor touches itself. O(n log n) where few parts
+    /// Corners of the closed, sampled path, anticlockwise, if it neither crosses nor touches itself, and has no more than `most` of
+    /// them. O(n log n) where few parts
     /// lie over each other.
     ///
     /// # Errors
-    /// [`SketchError::Open`], [`SketchError::Crosses`].
-    pub fn simple_loop(&self, tolerance: f64) -> Result<Vec<DVec2>, SketchError> {
+    /// [`SketchError::Open`], [`SketchError::Crosses`], [`SketchError::TooFine`].
+    pub fn simple_loop(&self, tolerance: f64, most: usize) -> Result<Vec<DVec2>, SketchError> {
         if !self.closed {
             return Err(SketchError::Open { begins: self.start(), ends: self.end() });
         }
-        let mut points: Vec<DVec2> = self.sampled(tolerance).iter().map(|p| p.at).collect();
+        let mut points: Vec<DVec2> = self.sampled_within(tolerance, most)?.iter().map(|p| p.at).collect();
         if points.len() < 3 {
             return Err(SketchError::TooFewPoints { what: "an outline", wanted: 3, given: points.len() });
         }

@@ -67,10 +67,11 @@ fn drawings_come_from_json_and_must_close() {
     let gap = of(r#"{"path": [{"line": [[0, 0], [10, 0]]}, {"line": [[11, 0], [20, 0]]}]}"#);
     assert!(matches!(gap, Err(SketchError::Gap { curve: 2, .. })));
     let open = of(r#"{"polyline": [[0, 0], [1, 0], [1, 1]]}"#).unwrap();
-    assert!(matches!(open.simple_loop(0.1), Err(SketchError::Open { .. })));
+    assert!(matches!(open.simple_loop(0.1, 1000), Err(SketchError::Open { .. })));
     let eight = of(r#"{"polygon": [[0, 0], [2, 2], [2, 0], [0, 2]]}"#).unwrap();
-    assert!(matches!(eight.simple_loop(0.1), Err(SketchError::Crosses { .. })));
+    assert!(matches!(eight.simple_loop(0.1, 1000), Err(SketchError::Crosses { .. })));
     assert!(of(r#"{"circle": {"center": [0, 0], "radius": -1}}"#).is_err());
+    assert_eq!(round.sampled_within(1e-9, 100), Err(SketchError::TooFine { most: 100 }));
     assert!(
         serde_json::from_str::<Outline>(r#"{"circle": {"center": [0, 0], "radius": 1, "x": 1}}"#).is_err()
     );

@@ -35,7 +35,7 @@ fn summary(r: &BendsFileReport) -> String {
     text.push('\n');
     text.push_str(&table(&["MCV", "MEV", "MEF", "MGB", "MBKE", "MUKE", "MWKB"], &[operators]));
     text.push_str(&format!(
-        "\n  one piece: {}; {}\n  {} bends and welds at least, {} more than that; the lines bear {} bends\n",
+        "\n  one piece: {}; {}\n  f − s = {} bends and welds at least (d = {}: lines over that); the lines bear {} bends\n",
         if r.one_piece { "yes" } else { "no" },
         r.one_piece_reason,
         r.least_joints,

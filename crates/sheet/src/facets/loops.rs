@@ -24,7 +24,7 @@ pub(super) fn walk(shape: &Shape<'_>, regions: &Regions, traced: &Traced) -> Vec
         face.into_iter().find(|v| *v != a && *v != b).unwrap_or(a)
     };
     let mut seen: BTreeMap<(u32, u32, u32), bool> = BTreeMap::new();
-    for (&(facet, a, b), _) in &half_edges {
+    for &(facet, a, b) in half_edges.keys() {
         let e = edge_of(a, b);
         if traced.of_edge.get(e as usize).is_none_or(|l| *l == u32::MAX) || seen.contains_key(&(facet, a, b))
         {

@@ -2,11 +2,15 @@
 
 use std::collections::{BTreeSet, VecDeque};
 
-use glam::{DQuat, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 use mesh_kernel::complex::{EdgeId, FaceId, Loop, NewFace, VertexId};
 
 use super::build::{Builder, SAME_POINT, area_vector, within};
 use super::{Model, ModelError};
+use crate::unfold::inside;
+
+/// The edges of a cut, and the faces to the left of it.
+type Cut = (Vec<EdgeId>, Vec<FaceId>);
 
 impl Model {
     /// Turns what hangs on a patch about a line by an angle in radians, right-handed from `from` to `to`. Where no edge leads from
@@ -105,12 +109,7 @@ impl Model {
     }
 
     /// Cuts a face of a patch from one border point to another. Gives the edge, and the part to the left of it.
-    fn cut(
-        &mut self,
-        from: DVec3,
-        to: DVec3,
-        patch: &str,
-    ) -> Result<Option<(Vec<EdgeId>, Vec<FaceId>)>, ModelError> {
+    fn cut(&mut self, from: DVec3, to: DVec3, patch: &str) -> Result<Option<Cut>, ModelError> {
         let on_border = |corners: &[DVec3], p: DVec3| {
             (0..corners.len()).any(|i| {
                 let (a, b) = (corners[i], corners[(i + 1) % corners.len()]);
@@ -120,7 +119,7 @@ impl Model {
         let faces = self.faces_of(patch)?;
         let Some(face) = faces.into_iter().find(|f| {
             let corners = self.corners_of(*f);
-            corners.len() == 1 && on_border(&corners[0], from) && on_border(&corners[0], to)
+            on_border(&corners[0], from) && on_border(&corners[0], to)
         }) else {
             return Ok(None);
         };
@@ -150,16 +149,43 @@ impl Model {
         if areas.clone().any(|a| a <= 0.0) {
             return Err(ModelError::LeavesFace { patch: patch.to_owned(), at: (from + to) / 2.0 });
         }
+        let rings = self.rings_of_parts(face, &parts, normal / whole, patch)?;
         self.editor.kill_face(face)?;
         self.tables.patch_of.remove(&face);
         let edge = self.editor.make_edge(a, b)?.edge;
         let mut made = Vec::new();
-        for vertices in &parts {
+        for (vertices, rings) in parts.iter().zip(rings) {
             let walk = self.complex().walk(vertices)?;
-            made.push(self.editor.make_face(NewFace::new(walk))?.face);
+            let new = NewFace { rings, ..NewFace::new(walk) };
+            made.push(self.editor.make_face(new)?.face);
         }
         self.enter(made.iter().copied(), number);
         // The part whose loop runs from the cut's end back to its beginning has it walked forward: it lies to the left.
         Ok(Some((vec![edge], vec![made[0]])))
+    }
+
+    /// The hole loops of a face that lie in each of two parts.
+    fn rings_of_parts(
+        &self,
+        face: FaceId,
+        parts: &[Vec<VertexId>; 2],
+        normal: DVec3,
+        patch: &str,
+    ) -> Result<[Vec<Loop>; 2], ModelError> {
+        let u = normal.any_orthonormal_vector();
+        let v = normal.cross(u);
+        let flat = |w: &VertexId| DVec2::new(self.at(*w).dot(u), self.at(*w).dot(v));
+        let outlines = parts.each_ref().map(|p| vec![p.iter().map(flat).collect::<Vec<_>>()]);
+        let mut rings = [Vec::new(), Vec::new()];
+        for ring in self.complex().loops(face).iter().skip(1) {
+            let corners = self.complex().loop_vertices(ring);
+            let all_in = |o: &Vec<Vec<DVec2>>| corners.iter().all(|w| inside(flat(w), o));
+            let Some(part) = outlines.iter().position(all_in) else {
+                let at = corners.first().map_or(DVec3::ZERO, |w| self.at(*w));
+                return Err(ModelError::LeavesFace { patch: patch.to_owned(), at });
+            };
+            rings[part].push(ring.clone());
+        }
+        Ok(rings)
     }
 }

@@ -118,7 +118,7 @@ impl Model {
         let at = self.at(fold.ends[end]);
         let along = (self.at(fold.ends[1 - end]) - at).normalize_or_zero();
         let mut next = [DVec3::ZERO; 2];
-        for k in 0..2 {
+        for (k, next) in next.iter_mut().enumerate() {
             let (far, length) = self.next_corner(fold, k, end)?;
             let direction = (far - at) / length;
             let across = direction.dot(fold.inward[k]);
@@ -129,7 +129,7 @@ impl Model {
             if takes > length - SAME_POINT {
                 return Err(ModelError::TooShort { at, takes, length });
             }
-            next[k] = direction * takes;
+            *next = direction * takes;
         }
         // How far along the edge each point of the profile ends: as the two faces' next edges do, in proportion between.
         let (s, t) = (next[0].dot(along), next[1].dot(along));

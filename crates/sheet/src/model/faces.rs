@@ -13,11 +13,7 @@ use crate::unfold::inside;
 impl Model {
     /// A closed drawing's corners, anticlockwise on its plane.
     fn loop_of(&self, outline: &Outline) -> Result<Vec<DVec2>, ModelError> {
-        let points = Path::of(outline)?.simple_loop(self.limits.tolerance)?;
-        if points.len() > self.limits.points {
-            return Err(ModelError::TooFine { points: points.len(), most: self.limits.points });
-        }
-        Ok(points)
+        Ok(Path::of(outline)?.simple_loop(self.limits.tolerance, self.limits.points)?)
     }
 
     /// CREATE: a sheet from a drawing, with holes.

@@ -6,6 +6,7 @@
 
 mod bend;
 mod build;
+mod carry_out;
 mod command;
 mod corners;
 mod error;

@@ -71,7 +71,7 @@ pub enum ScriptError {
         /// Its name.
         name: &'static str,
         /// Why.
-        source: ModelError,
+        source: Box<ModelError>,
     },
 }
 
@@ -141,7 +141,7 @@ impl Script {
                 line: *line,
                 number,
                 name: command.name(),
-                source,
+                source: Box::new(source),
             })?);
         }
         Ok(ScriptRun { model, done })

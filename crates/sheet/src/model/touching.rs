@@ -41,7 +41,9 @@ fn reading(result: Result<Resolution, PairingError>) -> Reading {
 pub fn touching(mesh: &TriMesh) -> Result<Vec<Touching>, BuildError> {
     let mut whole = mesh.clone();
     whole.groups.clear();
-    let body = Body::from_tri_mesh(&whole)?;
+    let mut body = Body::from_tri_mesh(&whole)?;
+    // An edge that is cut apart needs a node between its ends. Where that is too much, readings say so.
+    let _ = body.split_all(None);
     let mut found = Vec::new();
     for joint in body.non_manifold_joints() {
         let first = body.joint(joint).uses()[0];

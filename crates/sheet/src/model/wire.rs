@@ -38,10 +38,11 @@ pub(super) struct Drawn {
 pub(super) fn drawn(drawing: &Outline, plane: &WorkPlane, limits: &Limits) -> Result<Drawn, ModelError> {
     let plane = plane.squared()?;
     let path = Path::of(drawing)?;
-    let points: Vec<DVec3> = path.sampled(limits.tolerance).into_iter().map(|p| plane.place(p.at)).collect();
-    if points.len() > limits.points {
-        return Err(ModelError::TooFine { points: points.len(), most: limits.points });
-    }
+    let points: Vec<DVec3> = path
+        .sampled_within(limits.tolerance, limits.points)?
+        .into_iter()
+        .map(|p| plane.place(p.at))
+        .collect();
     let ends = path.branches().map(|b| Leave {
         tangent: plane.direction(b.tangent),
         curvature: plane.direction(b.tangent.perp()) * b.curvature,

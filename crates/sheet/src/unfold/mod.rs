@@ -175,6 +175,14 @@ fn plate(flat: &Flattening<'_>, found: &Found, piece: u32, outlines: &mut Outlin
     }
     let facets: Vec<u32> =
         (0..layout.piece.len() as u32).filter(|&f| layout.piece[f as usize] == piece).collect();
+    for &f in &facets {
+        let sides: Vec<_> = flat.shapes[f as usize].loops.iter().flatten().collect();
+        let other = |line: u32| sides.iter().any(|s| s.side.line == line && !s.side.along);
+        for s in sides.iter().filter(|s| s.side.along && other(s.side.line)) {
+            let ends = [s.from, s.to].map(|p| layout.placements[f as usize].apply(p));
+            welds.push(WeldEdge { line: s.side.line, ends });
+        }
+    }
     let mut bends = Vec::new();
     for (number, bend) in (0..).zip(&layout.bends) {
         let join = &flat.joins[bend.join as usize];

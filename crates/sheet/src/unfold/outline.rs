@@ -90,6 +90,21 @@ impl<'a> Outlines<'a> {
                 twin.insert(b, a);
             }
         }
+        // A line with the same facet on both sides is no border: something is welded on there.
+        let mut through: BTreeMap<(u32, u32), Vec<At>> = BTreeMap::new();
+        for (facet, rings) in (0..).zip(&sides) {
+            for (ring, plan) in (0..).zip(rings) {
+                for (side, s) in (0..).zip(plan) {
+                    through.entry((facet, s.side.line)).or_default().push(At { facet, ring, side });
+                }
+            }
+        }
+        for both in through.values() {
+            if let [a, b] = both[..] {
+                twin.insert(a, b);
+                twin.insert(b, a);
+            }
+        }
         let bend_ends = vec![Vec::new(); layout.bends.len()];
         Self { flat, layout, relief, sides, twin, bend_ends, reliefs: 0 }
     }
