@@ -398,8 +398,7 @@ impl Designer {
 impl eframe::App for Designer {
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         let context = ui.ctx().clone();
-        let dropped =
-            context.input(|i| i.raw.dropped_files.first().map(|f| f.path().to_path_buf()));
+        let dropped = context.input(|i| i.raw.dropped_files.first().map(|f| f.path().to_path_buf()));
         if let Some(path) = dropped {
             self.path = path.display().to_string();
             self.open();

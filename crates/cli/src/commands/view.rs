@@ -26,11 +26,11 @@ pub(crate) fn run(words: &View) -> Result<(), Failure> {
     if let Some(path) = &body {
         let mesh = read_mesh(path)?;
         let positions = mesh.positions.iter().map(|p| p.to_array()).collect();
-        draft.body =
-            Arc::new(BodySource::Mesh(Mesh { file: file_name(path), positions, faces: mesh.faces }));
+        draft.body = Arc::new(BodySource::Mesh(Mesh { file: file_name(path), positions, faces: mesh.faces }));
     }
     window::run(window::Designer::new(draft, file)).map_err(|e| {
-        Failure::new(format!("cannot open the window: {e}"))
-            .remedy("`toile view` needs a display with OpenGL; `toile regenerate` and `toile render` need none")
+        Failure::new(format!("cannot open the window: {e}")).remedy(
+            "`toile view` needs a display with OpenGL; `toile regenerate` and `toile render` need none",
+        )
     })
 }
