@@ -1,0 +1,363 @@
+//! Extraction and stitching: the kept walls at their middles become one mesh with shared nodes (Sheen et al. 2008,
+//! section 7, and what the paper leaves to others).
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use glam::DVec3;
+
+use super::DeflateOptions;
+use super::fill::{Outline, fill};
+use super::middle::Middles;
+use super::plane::Plane;
+use super::seams::{Merged, Nearness, Seams};
+use super::segments::Segments;
+use super::solid::Solid;
+use super::walls::Walls;
+
+/// Edges of curved pieces shorter than this share of the wall's thickness close when they got that short by moving.
+const CLOSED: f64 = 0.02;
+/// Borders of curved pieces that are this near, over the thickness, are one.
+const CHORDS: f64 = 0.08;
+/// What is exact agrees to this share of the solid's size.
+const ROUNDING: f64 = 1e-6;
+/// Nodes inside plane pieces keep this share of the thickness away from edges.
+const MARGIN: f64 = 0.4;
+/// Strips narrower than this share of the thickness are no steps.
+const STEP: f64 = 0.02;
+
+/// What a face of the mid-surface came from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Source {
+    /// A plane, by its number among the fills.
+    Plane(u32),
+    /// A face of a curved wall of the solid.
+    Facet(u32),
+}
+
+/// A mid-surface as it is being made.
+#[derive(Debug, Default)]
+pub(super) struct Sheet {
+    pub(super) positions: Vec<DVec3>,
+    pub(super) faces: Vec<[u32; 3]>,
+    /// Of every face.
+    pub(super) sources: Vec<Source>,
+    /// The planes that were filled, and whether each is a step between two thicknesses.
+    pub(super) planes: Vec<(Plane, bool)>,
+    /// Groups of the solid in every filled plane.
+    pub(super) groups: Vec<Vec<u32>>,
+    /// Edges of outlines that were lost.
+    pub(super) lost: usize,
+}
+
+/// Which groups are made into what.
+pub(super) struct Plan {
+    /// Plane pieces: plane, groups with whether they face as it, and whether it is a step.
+    planes: Vec<PlanePiece>,
+    /// Curved groups.
+    curved: Vec<u32>,
+}
+
+struct PlanePiece {
+    plane: Plane,
+    groups: Vec<(u32, bool)>,
+    is_step: bool,
+}
+
+/// Makes the mid-surface. `moved`: where the solid's nodes go. O(n log n).
+pub(super) fn assemble(
+    solid: &Solid,
+    segments: &Segments,
+    walls: &Walls,
+    middles: &Middles,
+    kept: &[bool],
+    moved: &[DVec3],
+    options: &DeflateOptions,
+) -> Sheet {
+    let thickness = mean_thickness(walls);
+    let near = Nearness { rounding: ROUNDING * solid.size, chords: CHORDS * thickness };
+    let plan = plan(solid, segments, walls, middles, kept, moved, options);
+    let merged = closed_edges(solid, segments, &plan, moved, CLOSED * thickness);
+    let mut borders: Vec<([u32; 2], u32)> = Vec::new();
+    for (k, piece) in (0..).zip(&plan.planes) {
+        for (g, _) in &piece.groups {
+            borders.extend(border(solid, segments, *g).map(|e| (e, k)));
+        }
+    }
+    let first_curved = plan.planes.len() as u32;
+    for (k, g) in (first_curved..).zip(&plan.curved) {
+        borders.extend(border(solid, segments, *g).map(|e| (e, k)));
+    }
+    let mut seams = Seams::new(moved.to_vec(), merged, &borders, near);
+    if let Some(length) = options.edge_length {
+        seams.refine(&borders, length);
+    }
+    let mut sheet = Sheet { positions: seams.positions.clone(), ..Sheet::default() };
+    add_planes(&mut sheet, solid, segments, &plan, &seams, &borders, options, MARGIN * thickness);
+    add_curved(&mut sheet, solid, segments, &plan, &seams);
+    sheet.without_unused_nodes()
+}
+
+fn mean_thickness(walls: &Walls) -> f64 {
+    let area: f64 = walls.pairs.iter().map(|p| p.area).sum();
+    walls.pairs.iter().map(|p| p.area * p.thickness).sum::<f64>() / area.max(f64::MIN_POSITIVE)
+}
+
+/// The directed edges of a group to other groups.
+fn border(solid: &Solid, segments: &Segments, g: u32) -> impl Iterator<Item = [u32; 2]> {
+    let faces = &segments.group(g).faces;
+    let sides = faces.iter().flat_map(|f| 3 * f..3 * f + 3);
+    sides.filter(move |h| segments.of(solid.across(*h)) != g).map(|h| solid.adjacency.ends(h))
+}
+
+fn plan(
+    solid: &Solid,
+    segments: &Segments,
+    walls: &Walls,
+    middles: &Middles,
+    kept: &[bool],
+    moved: &[DVec3],
+    options: &DeflateOptions,
+) -> Plan {
+    let mut by_plane: BTreeMap<u32, PlanePiece> = BTreeMap::new();
+    let mut curved = Vec::new();
+    for g in (0..segments.groups.len() as u32).filter(|g| kept[*g as usize]) {
+        let exact = middles.only(g).and_then(|plane| {
+            let pair = walls.partners(g).iter().find_map(|p| middles.between(g, p.partner))?;
+            Some((plane, pair.1))
+        });
+        match exact {
+            Some((plane, number)) => {
+                let shared = middles.mid_planes.plane(number);
+                let piece = by_plane.entry(number);
+                let piece =
+                    piece.or_insert_with(|| PlanePiece { plane: shared, groups: Vec::new(), is_step: false });
+                piece.groups.push((g, plane.normal.dot(shared.normal) > 0.0));
+            }
+            None => curved.push(g),
+        }
+    }
+    let mut planes: Vec<PlanePiece> = by_plane.into_values().collect();
+    // The piece faces as most of it did on the solid.
+    for piece in &mut planes {
+        let area = |(g, same): &(u32, bool)| if *same { 1.0 } else { -1.0 } * segments.group(*g).area;
+        if piece.groups.iter().map(area).sum::<f64>() < 0.0 {
+            piece.plane = piece.plane.flipped();
+            piece.groups.iter_mut().for_each(|g| g.1 = !g.1);
+        }
+    }
+    if options.steps != super::Steps::Apart {
+        planes.extend(steps(solid, segments, walls, kept, moved));
+    }
+    Plan { planes, curved }
+}
+
+/// Faces without a partner that stand between two middles: where the thickness steps.
+fn steps(
+    solid: &Solid,
+    segments: &Segments,
+    walls: &Walls,
+    kept: &[bool],
+    moved: &[DVec3],
+) -> Vec<PlanePiece> {
+    let mut found = Vec::new();
+    for (g, group) in (0u32..).zip(&segments.groups) {
+        let Some(plane) = group.plane.filter(|_| !walls.is_wall[g as usize]) else { continue };
+        let mut beside: BTreeSet<u32> = BTreeSet::new();
+        for &f in &group.faces {
+            let others = (3 * f..3 * f + 3).map(|h| segments.of(solid.across(h)));
+            beside.extend(others.filter(|o| kept[*o as usize]));
+        }
+        if beside.len() < 2 {
+            continue;
+        }
+        // Twice the area that is left, and its outline.
+        let (mut area, mut length, mut longest) = (DVec3::ZERO, 0.0, 0.0f64);
+        let origin = moved[solid.mesh.faces[group.faces[0] as usize][0] as usize];
+        for [a, b] in border(solid, segments, g) {
+            let (p, q) = (moved[a as usize] - origin, moved[b as usize] - origin);
+            area += p.cross(q);
+            length += p.distance(q);
+            longest = longest.max(p.length());
+        }
+        let area = area.dot(plane.normal).abs() / 2.0;
+        let width = 2.0 * area / length.max(f64::MIN_POSITIVE);
+        let thin = beside.iter().flat_map(|b| walls.partners(*b)).map(|p| p.thickness).fold(f64::MAX, f64::min);
+        if width > STEP * thin && width < walls.max_thickness && width < 0.5 * longest {
+            let origin = moved_plane(solid, segments, g, moved, plane);
+            found.push(PlanePiece { plane: origin, groups: vec![(g, true)], is_step: true });
+        }
+    }
+    found
+}
+
+/// The plane of a step stays where it was: its nodes move within it.
+fn moved_plane(solid: &Solid, segments: &Segments, g: u32, moved: &[DVec3], plane: Plane) -> Plane {
+    let nodes: Vec<f64> =
+        border(solid, segments, g).map(|[a, _]| plane.normal.dot(moved[a as usize])).collect();
+    Plane { offset: nodes.iter().sum::<f64>() / nodes.len().max(1) as f64, ..plane }
+}
+
+/// Edges of curved pieces that got very short close.
+fn closed_edges(solid: &Solid, segments: &Segments, plan: &Plan, moved: &[DVec3], short: f64) -> Merged {
+    let mut merged = Merged::new(moved.len());
+    for &g in &plan.curved {
+        for &f in &segments.group(g).faces {
+            for h in 3 * f..3 * f + 3 {
+                let [a, b] = solid.adjacency.ends(h);
+                let before = solid.mesh.positions[a as usize].distance(solid.mesh.positions[b as usize]);
+                let after = moved[a as usize].distance(moved[b as usize]);
+                if after < short && after < 0.3 * before {
+                    merged.join(a, b);
+                }
+            }
+        }
+    }
+    merged
+}
+
+#[allow(clippy::too_many_arguments, reason = "one call, all of them what the piece is made of")]
+fn add_planes(
+    sheet: &mut Sheet,
+    solid: &Solid,
+    segments: &Segments,
+    plan: &Plan,
+    seams: &Seams,
+    borders: &[([u32; 2], u32)],
+    options: &DeflateOptions,
+    margin: f64,
+) {
+    let rounding = ROUNDING * solid.size;
+    let mut all: Vec<[u32; 2]> = borders
+        .iter()
+        .flat_map(|([a, b], _)| {
+            let path = seams.path(*a, *b);
+            path.windows(2).map(|w| [w[0].min(w[1]), w[0].max(w[1])]).collect::<Vec<_>>()
+        })
+        .collect();
+    all.sort_unstable();
+    all.dedup();
+    for piece in &plan.planes {
+        let mut outline = Outline { plane: piece.plane, edges: vec![], lines: vec![], inside: vec![] };
+        let mut on_border: BTreeSet<u32> = BTreeSet::new();
+        for (g, same) in &piece.groups {
+            for [a, b] in border(solid, segments, *g) {
+                let path = if *same { seams.path(a, b) } else { seams.path(b, a) };
+                on_border.extend(&path);
+                outline.edges.extend(path.windows(2).map(|w| [w[0], w[1]]));
+            }
+        }
+        let on = |v: u32| piece.plane.height(sheet.positions[v as usize]).abs() < rounding;
+        outline.lines = all.iter().copied().filter(|[a, b]| on(*a) && on(*b)).collect();
+        if options.edge_length.is_none() && !piece.is_step {
+            let near = Near::new(&outline, &sheet.positions, margin);
+            let mut inside: BTreeSet<u32> = BTreeSet::new();
+            for (g, _) in &piece.groups {
+                let faces = &segments.group(*g).faces;
+                inside.extend(faces.iter().flat_map(|f| solid.mesh.faces[*f as usize]));
+            }
+            outline.inside = inside
+                .into_iter()
+                .filter(|v| seams.merged.find(*v) == *v && !on_border.contains(v))
+                .filter(|v| !near.is_near(sheet.positions[*v as usize]))
+                .collect();
+        }
+        let number = sheet.planes.len() as u32;
+        let filled = fill(&outline, &sheet.positions, options.edge_length);
+        sheet.positions.extend(filled.added);
+        sheet.sources.extend(filled.faces.iter().map(|_| Source::Plane(number)));
+        sheet.faces.extend(filled.faces);
+        sheet.lost += filled.lost;
+        sheet.planes.push((piece.plane, piece.is_step));
+        sheet.groups.push(piece.groups.iter().map(|g| g.0).collect());
+    }
+}
+
+fn add_curved(sheet: &mut Sheet, solid: &Solid, segments: &Segments, plan: &Plan, seams: &Seams) {
+    for &g in &plan.curved {
+        for &f in &segments.group(g).faces {
+            let sides = [0, 1, 2].map(|k| {
+                let [a, b] = solid.adjacency.ends(3 * f + k);
+                seams.path(a, b)
+            });
+            for face in cut(sides) {
+                sheet.faces.push(face);
+                sheet.sources.push(Source::Facet(f));
+            }
+        }
+    }
+}
+
+/// A face whose sides have nodes on them, as triangles; nothing where two corners are one.
+fn cut(sides: [Vec<u32>; 3]) -> Vec<[u32; 3]> {
+    let corners = [sides[0][0], sides[1][0], sides[2][0]];
+    let [a, b, c] = corners;
+    if a == b || b == c || c == a {
+        return Vec::new();
+    }
+    let mut done = Vec::new();
+    // The first side is cut from the opposite corner; the two others are sides of the first and last part.
+    let first: Vec<[u32; 3]> = sides[0].windows(2).map(|w| [w[0], w[1], c]).collect();
+    let last = first.len() - 1;
+    for (k, [p, q, r]) in first.into_iter().enumerate() {
+        let second = if k == last { sides[1].clone() } else { vec![q, r] };
+        let third = if k == 0 { sides[2].clone() } else { vec![r, p] };
+        // Part by part along the second side, seen from p; the last part holds the third side.
+        let parts: Vec<[u32; 3]> = second.windows(2).map(|w| [p, w[0], w[1]]).collect();
+        let (end, whole) = (parts[parts.len() - 1], &parts[..parts.len() - 1]);
+        done.extend_from_slice(whole);
+        done.extend(third.windows(2).map(|w| [end[1], w[0], w[1]]));
+    }
+    done.retain(|[a, b, c]| a != b && b != c && c != a);
+    done
+}
+
+/// Whether places are near to the edges of an outline: cells along the edges are marked.
+struct Near {
+    cell: f64,
+    frame: [DVec3; 2],
+    marked: BTreeSet<(i64, i64)>,
+}
+
+impl Near {
+    fn new(outline: &Outline, positions: &[DVec3], margin: f64) -> Self {
+        let mut near = Self { cell: margin, frame: outline.plane.frame(), marked: BTreeSet::new() };
+        for [a, b] in outline.edges.iter().chain(&outline.lines) {
+            let (p, q) = (positions[*a as usize], positions[*b as usize]);
+            let steps = (p.distance(q) / margin).ceil().clamp(1.0, 1e6) as u32;
+            for k in 0..=steps {
+                let (i, j) = near.key(p.lerp(q, f64::from(k) / f64::from(steps)));
+                for di in -1..=1 {
+                    near.marked.extend((-1..=1).map(|dj| (i + di, j + dj)));
+                }
+            }
+        }
+        near
+    }
+
+    fn key(&self, p: DVec3) -> (i64, i64) {
+        let [i, j] = self.frame.map(|axis| (p.dot(axis) / self.cell).floor() as i64);
+        (i, j)
+    }
+
+    fn is_near(&self, p: DVec3) -> bool {
+        self.marked.contains(&self.key(p))
+    }
+}
+
+impl Sheet {
+    fn without_unused_nodes(mut self) -> Self {
+        const NONE: u32 = u32::MAX;
+        let mut number = vec![NONE; self.positions.len()];
+        let mut positions = Vec::new();
+        for v in self.faces.iter_mut().flatten() {
+            let slot = &mut number[*v as usize];
+            if *slot == NONE {
+                *slot = positions.len() as u32;
+                positions.push(self.positions[*v as usize]);
+            }
+            *v = *slot;
+        }
+        self.positions = positions;
+        self
+    }
+}

@@ -1,0 +1,126 @@
+//! Fillets and rounds without a partner: what lies behind them.
+//!
+//! A fillet at the root of a rib is no wall and has no middle. Its nodes belong to the faces that it blends instead, as if it
+//! had been removed and the faces extended until they meet.
+
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BinaryHeap};
+
+use super::segments::Segments;
+use super::solid::Solid;
+use super::walls::Walls;
+
+/// A group that a node belongs to, with the node of that group which is nearest to it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Belongs {
+    /// The group.
+    pub(super) group: u32,
+    /// The node on it.
+    pub(super) at: u32,
+}
+
+/// Faces that lie farther away than this many times the nearest wall are not blended there.
+const AS_NEAR: f64 = 1.5;
+/// Cosine above which two faces are too parallel to meet.
+const PARALLEL: f64 = 0.94;
+
+/// For nodes of blends, what they belong to beside their own groups.
+#[derive(Debug, Default)]
+pub(super) struct Blends {
+    of_node: BTreeMap<u32, Vec<Belongs>>,
+    /// Whether each group is a blend.
+    pub(super) is_blend: Vec<bool>,
+}
+
+/// Distances are compared by their bits: they are not negative.
+type Reached = Reverse<(u64, u32, u32)>;
+
+impl Blends {
+    /// Finds what lies behind every curved group that is no wall. O(n log n) in nodes of blends, times their neighbours.
+    pub(super) fn new(solid: &Solid, segments: &Segments, walls: &Walls) -> Self {
+        let mut blends = Self {
+            is_blend: (0..segments.groups.len())
+                .map(|g| !walls.is_wall[g] && segments.groups[g].plane.is_none())
+                .collect(),
+            ..Self::default()
+        };
+        for g in 0..segments.groups.len() as u32 {
+            if blends.is_blend[g as usize] {
+                blends.look_behind(solid, segments, walls, g);
+            }
+        }
+        blends
+    }
+
+    /// What a node belongs to beside the groups of its faces.
+    pub(super) fn behind(&self, node: u32) -> &[Belongs] {
+        self.of_node.get(&node).map_or(&[], Vec::as_slice)
+    }
+
+    fn look_behind(&mut self, solid: &Solid, segments: &Segments, walls: &Walls, blend: u32) {
+        // Nodes on the blend's border, by the group beyond.
+        let mut borders: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+        let mut links: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+        for &f in &segments.group(blend).faces {
+            for h in 3 * f..3 * f + 3 {
+                let [a, b] = solid.adjacency.ends(h);
+                links.entry(a).or_default().push(b);
+                links.entry(b).or_default().push(a);
+                let other = segments.of(solid.across(h));
+                if other != blend && !self.is_blend[other as usize] {
+                    borders.entry(other).or_default().extend([a, b]);
+                }
+            }
+        }
+        let mut found: BTreeMap<u32, Vec<(f64, Belongs)>> = BTreeMap::new();
+        for (&group, nodes) in &borders {
+            for (node, (distance, at)) in nearest(solid, &links, nodes) {
+                found.entry(node).or_default().push((distance, Belongs { group, at }));
+            }
+        }
+        for (node, mut reached) in found {
+            reached.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let own: Vec<u32> = reached.iter().filter(|r| r.0 == 0.0).map(|r| r.1.group).collect();
+            let facing = |b: &Belongs| group_normal_at(solid, segments, b);
+            let mine: Vec<_> = reached.iter().filter(|r| r.0 == 0.0).map(|r| facing(&r.1)).collect();
+            let meets = |b: &Belongs| mine.iter().all(|n| n.dot(facing(b)).abs() < PARALLEL);
+            let others = reached.iter().filter(|r| !own.contains(&r.1.group) && meets(&r.1));
+            let others: Vec<&(f64, Belongs)> = others.collect();
+            let wall = others.iter().find(|r| walls.is_wall[r.1.group as usize]);
+            let within = wall.map_or(f64::INFINITY, |w| AS_NEAR * w.0);
+            let end = others.iter().find(|r| !walls.is_wall[r.1.group as usize] && r.0 <= within);
+            let behind = wall.into_iter().chain(end).map(|r| r.1);
+            self.of_node.entry(node).or_default().extend(behind);
+        }
+    }
+}
+
+/// The mean normal of the faces of a group about a node of it.
+fn group_normal_at(solid: &Solid, segments: &Segments, b: &Belongs) -> glam::DVec3 {
+    if let Some(plane) = segments.group(b.group).plane {
+        return plane.normal;
+    }
+    let faces = &segments.group(b.group).faces;
+    let about = faces.iter().filter(|f| solid.mesh.faces[**f as usize].contains(&b.at));
+    about.map(|f| solid.normals[*f as usize]).sum::<glam::DVec3>().normalize_or_zero()
+}
+
+/// For every node, the nearest of some nodes along the edges, and how far it is.
+fn nearest(solid: &Solid, links: &BTreeMap<u32, Vec<u32>>, from: &[u32]) -> BTreeMap<u32, (f64, u32)> {
+    let mut found: BTreeMap<u32, (f64, u32)> = BTreeMap::new();
+    let mut queue: BinaryHeap<Reached> = from.iter().map(|&v| Reverse((0, v, v))).collect();
+    while let Some(Reverse((bits, node, at))) = queue.pop() {
+        let distance = f64::from_bits(bits);
+        if found.contains_key(&node) {
+            continue;
+        }
+        found.insert(node, (distance, at));
+        for &next in links.get(&node).map_or(&[][..], Vec::as_slice) {
+            if !found.contains_key(&next) {
+                let step = solid.mesh.positions[node as usize].distance(solid.mesh.positions[next as usize]);
+                queue.push(Reverse(((distance + step).to_bits(), next, at)));
+            }
+        }
+    }
+    found
+}

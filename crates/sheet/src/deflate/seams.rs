@@ -1,0 +1,328 @@
+//! Where borders of pieces come to lie on each other they become one: the same nodes, the same edges.
+//!
+//! Both sides of a rib end on the same line of the plate, each with the nodes that its own side of the solid had there.
+//! Nodes in one place are merged, edges are cut at nodes that lie on them and where they cross, so that afterwards edges
+//! are the same or have at most a node in common.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+
+/// Union–find in which the smaller number stands for both.
+#[derive(Debug)]
+pub(super) struct Merged {
+    parent: Vec<u32>,
+}
+
+impl Merged {
+    pub(super) fn new(n: usize) -> Self {
+        Self { parent: (0..n as u32).collect() }
+    }
+
+    /// Who stands for `x`.
+    pub(super) fn find(&self, mut x: u32) -> u32 {
+        while self.parent[x as usize] != x {
+            x = self.parent[x as usize];
+        }
+        x
+    }
+
+    pub(super) fn join(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.find(a), self.find(b));
+        let (low, high) = (a.min(b), a.max(b));
+        self.parent[high as usize] = low;
+    }
+
+    fn push(&mut self) -> u32 {
+        self.parent.push(self.parent.len() as u32);
+        self.parent.len() as u32 - 1
+    }
+
+    /// Makes every path one step long.
+    fn flatten(&mut self) {
+        for x in 0..self.parent.len() as u32 {
+            self.parent[x as usize] = self.find(x);
+        }
+    }
+}
+
+/// Borders that were made to agree.
+#[derive(Debug)]
+pub(super) struct Seams {
+    pub(super) positions: Vec<DVec3>,
+    pub(super) merged: Merged,
+    /// Nodes inside an edge (smaller number first), in order from the first end.
+    cuts: BTreeMap<[u32; 2], Vec<u32>>,
+}
+
+/// How near things must be to be one, in mm.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Nearness {
+    /// For what is exact: rounding.
+    pub(super) rounding: f64,
+    /// For borders of curved pieces, which are chords.
+    pub(super) chords: f64,
+}
+
+impl Seams {
+    /// Makes borders agree. `borders`: edges with the number of their piece. O(n log n) and what lies beside each other.
+    pub(super) fn new(
+        positions: Vec<DVec3>,
+        merged: Merged,
+        borders: &[([u32; 2], u32)],
+        near: Nearness,
+    ) -> Self {
+        let mut seams = Self { positions, merged, cuts: BTreeMap::new() };
+        seams.merge_coincident(borders, near.rounding);
+        seams.merge_across(borders, near.chords);
+        seams.merged.flatten();
+        let edges = seams.edges(borders);
+        let open = seams.open_nodes(&edges);
+        let lines: Vec<[u32; 2]> = edges.iter().map(|e| e.0).collect();
+        seams.cut_at_nodes(&lines, &open, near);
+        seams
+    }
+
+    /// The nodes from `a` to `b` along an edge, both ends included, after merging and cutting; one node where they are one.
+    pub(super) fn path(&self, a: u32, b: u32) -> Vec<u32> {
+        let (a, b) = (self.merged.find(a), self.merged.find(b));
+        if a == b {
+            return vec![a];
+        }
+        let inner = self.cuts.get(&[a.min(b), a.max(b)]).map_or(&[][..], Vec::as_slice);
+        let mut path = vec![a];
+        if a < b {
+            path.extend(inner);
+        } else {
+            path.extend(inner.iter().rev());
+        }
+        path.push(b);
+        path.dedup();
+        path
+    }
+
+    /// Cuts edges into parts of about `length` at most.
+    pub(super) fn refine(&mut self, borders: &[([u32; 2], u32)], length: f64) {
+        for ([a, b], _) in self.edges(borders) {
+            let path = self.path(a, b);
+            let mut fine = Vec::new();
+            for pair in path.windows(2) {
+                let [p, q] = [pair[0], pair[1]].map(|v| self.positions[v as usize]);
+                let parts = (p.distance(q) / length * 0.999).ceil().max(1.0) as u32;
+                fine.push(pair[0]);
+                for k in 1..parts {
+                    fine.push(self.add(p.lerp(q, f64::from(k) / f64::from(parts))));
+                }
+            }
+            fine.push(path[path.len() - 1]);
+            self.set_path(&fine);
+        }
+    }
+
+    fn set_path(&mut self, path: &[u32]) {
+        let (first, last) = (path[0], path[path.len() - 1]);
+        let mut inner = path[1..path.len() - 1].to_vec();
+        if first > last {
+            inner.reverse();
+        }
+        if inner.is_empty() {
+            self.cuts.remove(&[first.min(last), first.max(last)]);
+        } else {
+            self.cuts.insert([first.min(last), first.max(last)], inner);
+        }
+    }
+
+    fn add(&mut self, p: DVec3) -> u32 {
+        self.positions.push(p);
+        self.merged.push()
+    }
+
+    /// The different edges as they are now, ascending, with the number of pieces that each borders.
+    fn edges(&self, borders: &[([u32; 2], u32)]) -> Vec<([u32; 2], usize)> {
+        let mut edges: Vec<([u32; 2], u32)> = borders
+            .iter()
+            .map(|([a, b], piece)| {
+                let (a, b) = (self.merged.find(*a), self.merged.find(*b));
+                ([a.min(b), a.max(b)], *piece)
+            })
+            .filter(|([a, b], _)| a != b)
+            .collect();
+        edges.sort_unstable();
+        edges.dedup();
+        edges.chunk_by(|a, b| a.0 == b.0).map(|run| (run[0].0, run.len())).collect()
+    }
+
+    /// Whether each node has an edge that borders one piece only.
+    fn open_nodes(&self, edges: &[([u32; 2], usize)]) -> Vec<bool> {
+        let mut open = vec![false; self.positions.len()];
+        for (ends, pieces) in edges {
+            if *pieces == 1 {
+                ends.iter().for_each(|v| open[*v as usize] = true);
+            }
+        }
+        open
+    }
+
+    /// Merges nodes of borders that are in one place.
+    fn merge_coincident(&mut self, borders: &[([u32; 2], u32)], rounding: f64) {
+        let nodes = self.nodes(borders);
+        for (a, b) in near_pairs(&self.positions, &nodes, rounding) {
+            self.merged.join(a, b);
+        }
+        self.merged.flatten();
+    }
+
+    /// Merges nodes of open edges that are nearest to each other across a gap between chords.
+    fn merge_across(&mut self, borders: &[([u32; 2], u32)], chords: f64) {
+        let edges = self.edges(borders);
+        let open = self.open_nodes(&edges);
+        let nodes: Vec<u32> = self.nodes(borders).into_iter().filter(|v| open[*v as usize]).collect();
+        let linked = |a: u32, b: u32| {
+            edges.binary_search_by_key(&[a.min(b), a.max(b)], |e| e.0).is_ok()
+        };
+        let mut nearest: BTreeMap<u32, (f64, u32)> = BTreeMap::new();
+        for (a, b) in near_pairs(&self.positions, &nodes, chords) {
+            if linked(a, b) {
+                continue;
+            }
+            let d = self.positions[a as usize].distance(self.positions[b as usize]);
+            for (from, to) in [(a, b), (b, a)] {
+                let best = nearest.entry(from).or_insert((f64::INFINITY, to));
+                if d < best.0 {
+                    *best = (d, to);
+                }
+            }
+        }
+        let mutual: Vec<(u32, u32)> = nearest
+            .iter()
+            .filter(|(a, (_, b))| **a < *b && nearest.get(b).is_some_and(|n| n.1 == **a))
+            .map(|(a, (_, b))| (*a, *b))
+            .collect();
+        for (a, b) in mutual {
+            self.positions[a as usize] = (self.positions[a as usize] + self.positions[b as usize]) / 2.0;
+            self.merged.join(a, b);
+        }
+    }
+
+    fn nodes(&self, borders: &[([u32; 2], u32)]) -> Vec<u32> {
+        let mut nodes: Vec<u32> = borders.iter().flat_map(|b| b.0).map(|v| self.merged.find(v)).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
+    }
+
+    /// Cuts edges at nodes on them, and where they cross.
+    fn cut_at_nodes(&mut self, edges: &[[u32; 2]], open: &[bool], near: Nearness) {
+        let mut order: Vec<usize> = (0..edges.len()).collect();
+        let low = |e: usize| edges[e].map(|v| self.positions[v as usize].x).into_iter().fold(f64::MAX, f64::min);
+        let lows: Vec<f64> = (0..edges.len()).map(low).collect();
+        order.sort_by(|a, b| lows[*a].total_cmp(&lows[*b]).then(a.cmp(b)));
+        let mut inner: Vec<Vec<(f64, u32)>> = vec![Vec::new(); edges.len()];
+        let mut crossings: Vec<(usize, usize, f64, f64, DVec3)> = Vec::new();
+        for (i, &e) in order.iter().enumerate() {
+            let [a, b] = edges[e].map(|v| self.positions[v as usize]);
+            let (lo, hi) = (a.min(b) - near.chords, a.max(b) + near.chords);
+            for &f in &order[i + 1..] {
+                if lows[f] > hi.x {
+                    break;
+                }
+                let [c, d] = edges[f].map(|v| self.positions[v as usize]);
+                if c.min(d).cmpgt(hi).any() || c.max(d).cmplt(lo).any() {
+                    continue;
+                }
+                self.nodes_on(edges, e, f, open, near, &mut inner);
+                self.nodes_on(edges, f, e, open, near, &mut inner);
+                let apart = edges[e].iter().all(|v| !edges[f].contains(v));
+                if apart && let Some((s, t)) = crossing(a, b, c, d, near.rounding) {
+                    crossings.push((e, f, s, t, a.lerp(b, s)));
+                }
+            }
+        }
+        for (e, f, s, t, p) in crossings {
+            let taken = |list: &[(f64, u32)]| {
+                list.iter().map(|n| n.1).find(|v| self.positions[*v as usize].distance(p) <= near.rounding)
+            };
+            let node = taken(&inner[e]).or_else(|| taken(&inner[f]));
+            let node = node.unwrap_or_else(|| self.add(p));
+            inner[e].push((s, node));
+            inner[f].push((t, node));
+        }
+        for (edge, mut nodes) in edges.iter().zip(inner) {
+            nodes.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            nodes.dedup_by_key(|n| n.1);
+            if !nodes.is_empty() {
+                self.cuts.insert(*edge, nodes.into_iter().map(|n| n.1).collect());
+            }
+        }
+    }
+
+    /// Ends of edge `f` that lie on edge `e`.
+    fn nodes_on(
+        &self,
+        edges: &[[u32; 2]],
+        e: usize,
+        f: usize,
+        open: &[bool],
+        near: Nearness,
+        inner: &mut [Vec<(f64, u32)>],
+    ) {
+        let [a, b] = edges[e].map(|v| self.positions[v as usize]);
+        let along = b - a;
+        let length = along.length();
+        for (k, &v) in edges[f].iter().enumerate() {
+            if edges[e].contains(&v) || inner[e].iter().any(|n| n.1 == v) {
+                continue;
+            }
+            let p = self.positions[v as usize] - a;
+            let s = p.dot(along) / (length * length);
+            let off = (p - along * s).length();
+            let within = s * length > near.rounding && (1.0 - s) * length > near.rounding;
+            // Chords lie beside each other; what crosses at an angle is not the same border.
+            let other = self.positions[edges[f][1 - k] as usize] - self.positions[v as usize];
+            let beside = other.cross(along).length() < BESIDE * other.length() * length;
+            let shares = edges[e].iter().any(|w| edges[f].contains(w));
+            let chord = open[v as usize] && beside && !shares && off <= near.chords;
+            if within && (off <= near.rounding || chord) {
+                inner[e].push((s, v));
+            }
+        }
+    }
+}
+
+/// Sine of the angle between chords of the same border, at most.
+const BESIDE: f64 = 0.5;
+
+/// Pairs of nodes at most `distance` apart, in ascending order. O(n log n).
+fn near_pairs(positions: &[DVec3], nodes: &[u32], distance: f64) -> Vec<(u32, u32)> {
+    let mut order: Vec<u32> = nodes.to_vec();
+    // A direction in which regular parts have few nodes level.
+    let key = |v: u32| positions[v as usize].dot(DVec3::new(0.743, 0.557, 0.371));
+    order.sort_by(|a, b| key(*a).total_cmp(&key(*b)).then(a.cmp(b)));
+    let mut pairs = Vec::new();
+    for (i, &a) in order.iter().enumerate() {
+        for &b in &order[i + 1..] {
+            if key(b) - key(a) > distance {
+                break;
+            }
+            if positions[a as usize].distance(positions[b as usize]) <= distance {
+                pairs.push((a.min(b), a.max(b)));
+            }
+        }
+    }
+    pairs.sort_unstable();
+    pairs
+}
+
+/// Where two segments that are not parallel cross, as shares of their lengths, both inside.
+fn crossing(a: DVec3, b: DVec3, c: DVec3, d: DVec3, distance: f64) -> Option<(f64, f64)> {
+    let (u, v, w) = (b - a, d - c, c - a);
+    let normal = u.cross(v);
+    let square = normal.length_squared();
+    if square < 1e-6 * u.length_squared() * v.length_squared() {
+        return None;
+    }
+    let (s, t) = (w.cross(v).dot(normal) / square, w.cross(u).dot(normal) / square);
+    let (ends_u, ends_v) = (distance / u.length(), distance / v.length());
+    let inside = s > ends_u && s < 1.0 - ends_u && t > ends_v && t < 1.0 - ends_v;
+    (inside && (a + u * s).distance(c + v * t) <= distance).then_some((s, t))
+}
