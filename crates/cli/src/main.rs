@@ -50,6 +50,7 @@ fn run(command: &Command, speech: &Speech) -> Result<(), Failure> {
         Command::Info(words) => commands::info::run(words, speech),
         Command::Flatten(words) => commands::flatten::run(words, speech),
         Command::Thicken(words) => commands::thicken::run(words, speech),
+        Command::Deflate(words) => commands::deflate::run(words, speech),
         Command::Render(words) => commands::render::run(words, speech),
     }
 }

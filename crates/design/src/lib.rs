@@ -7,10 +7,12 @@
 //! * [`pictures`]: front, back, pattern, features, any model;
 //! * [`model_info`]: what a model holds;
 //! * [`mod@thicken`]: a sheet to a solid's file;
+//! * [`mod@deflate`]: a solid to its mid-surface's file;
 //! * [`units`]: what a file's numbers mean;
 //! * [`output`]: files made in memory, then written.
 
 pub mod batch;
+pub mod deflate;
 pub mod document;
 mod fingerprint;
 mod garment_pattern;
