@@ -21,6 +21,8 @@ pub(super) struct Belongs {
 
 /// Faces that lie farther away than this many times the nearest wall are not blended there.
 const AS_NEAR: f64 = 1.5;
+/// A blend that reaches from a wall to its partner over less than this many thicknesses is the wall's end.
+const END_WIDTH: f64 = 2.5;
 /// Cosine above which two faces are too parallel to meet.
 const PARALLEL: f64 = 0.94;
 
@@ -80,18 +82,40 @@ impl Blends {
         }
         for (node, mut reached) in found {
             reached.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let own: Vec<u32> = reached.iter().filter(|r| r.0 == 0.0).map(|r| r.1.group).collect();
+            let own: Vec<Belongs> = reached.iter().filter(|r| r.0 == 0.0).map(|r| r.1).collect();
+            let is_end = |r: &(f64, Belongs)| {
+                own.iter().any(|o| {
+                    let partners = walls.partners(o.group);
+                    let pair = partners.iter().find(|p| p.partner == r.1.group);
+                    pair.is_some_and(|p| r.0 <= END_WIDTH * p.thickness)
+                })
+            };
+            if own.is_empty() || reached.iter().any(is_end) {
+                continue;
+            }
             let facing = |b: &Belongs| group_normal_at(solid, segments, b);
-            let mine: Vec<_> = reached.iter().filter(|r| r.0 == 0.0).map(|r| facing(&r.1)).collect();
-            let meets = |b: &Belongs| mine.iter().all(|n| n.dot(facing(b)).abs() < PARALLEL);
-            let others = reached.iter().filter(|r| !own.contains(&r.1.group) && meets(&r.1));
-            let others: Vec<&(f64, Belongs)> = others.collect();
+            let mine: Vec<_> = own.iter().map(facing).collect();
+            let meets = |b: &Belongs| {
+                let apart = own.iter().all(|o| o.group != b.group && !self.touch(segments, solid, o.group, b.group));
+                apart && mine.iter().all(|n| n.dot(facing(b)).abs() < PARALLEL)
+            };
+            let others: Vec<&(f64, Belongs)> = reached.iter().filter(|r| meets(&r.1)).collect();
             let wall = others.iter().find(|r| walls.is_wall[r.1.group as usize]);
             let within = wall.map_or(f64::INFINITY, |w| AS_NEAR * w.0);
             let end = others.iter().find(|r| !walls.is_wall[r.1.group as usize] && r.0 <= within);
-            let behind = wall.into_iter().chain(end).map(|r| r.1);
-            self.of_node.entry(node).or_default().extend(behind);
+            let behind: Vec<Belongs> = wall.into_iter().chain(end).map(|r| r.1).collect();
+            if !behind.is_empty() {
+                self.of_node.entry(node).or_default().extend(behind);
+            }
         }
+    }
+
+    /// Whether two groups have an edge in common.
+    fn touch(&self, segments: &Segments, solid: &Solid, g: u32, other: u32) -> bool {
+        let [small, large] =
+            if segments.group(g).faces.len() < segments.group(other).faces.len() { [g, other] } else { [other, g] };
+        let sides = segments.group(small).faces.iter().flat_map(|f| 3 * f..3 * f + 3);
+        sides.into_iter().any(|h| segments.of(solid.across(h)) == large)
     }
 }
 

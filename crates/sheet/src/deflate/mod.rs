@@ -137,6 +137,17 @@ pub fn deflate(
     let kept = kept_groups(&solid, &segments, &walls, &middles.of_group);
     let corners = middles.at_corners(&solid, &segments, &walls);
     let moved = Replacement::new(&solid, &segments, &walls, &middles, &blends, &corners).positions();
+    //DEBUG
+    if std::env::var("DBG").is_ok() {
+        #[allow(clippy::print_stderr)]
+        for (g, group) in segments.groups.iter().enumerate() {
+            let partners: Vec<_> = walls.partners(g as u32).iter().map(|p| (p.partner, (p.area * 10.0).round() / 10.0, (p.thickness * 1e3).round() / 1e3)).collect();
+            eprintln!("group {g} faces {} area {:.3} plane {:?} wall {} kept {} blend {} at {:.1} partners {:?}", group.faces.len(), group.area,
+                group.plane.map(|p| p.normal.to_array().map(|x| (x * 1e3).round() / 1e3)), walls.is_wall[g], kept[g], blends.is_blend[g], solid.centroid(group.faces[0]), partners.iter().take(6).collect::<Vec<_>>());
+        }
+        eprintln!("max_thickness {}", walls.max_thickness);
+    }
+    //END
     begin(Step::Stitch)?;
     let sheet = assemble(&solid, &segments, &walls, &middles, &kept, &moved, options);
     let thickness = thicknesses(&sheet, &solid, &segments, &walls, &middles, &corners);

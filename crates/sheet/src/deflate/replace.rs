@@ -13,6 +13,10 @@ use super::walls::Walls;
 
 /// Two planes meet in a line if the sine of the angle between them is more than this.
 const MEETING: f64 = 0.03;
+/// The same for the plane of an end face.
+const MEETING_END: f64 = 0.3;
+/// Faces without a partner smaller than this many squares of the thickness hold nothing.
+const TRIFLE: f64 = 0.05;
 /// How much staying beside the starting point weighs against the planes of facets.
 const STAY: f64 = 1e-3;
 /// A chain of edges that turns by more than this, in radians, has a corner there.
@@ -67,6 +71,8 @@ struct Wanted {
     ends: Vec<Plane>,
     /// With weights.
     facets: Vec<(Plane, f64)>,
+    /// Of the thinnest wall about it, in mm.
+    thickness: f64,
 }
 
 impl<'a> Replacement<'a> {
@@ -178,18 +184,39 @@ impl<'a> Replacement<'a> {
         groups.dedup();
         let own = groups.iter().map(|&group| Belongs { group, at: v });
         let behind = self.blends.behind(v).iter().copied().filter(|b| !groups.contains(&b.group));
-        for belongs in own.chain(behind) {
-            self.want(belongs, &mut wanted);
+        let belongs: Vec<Belongs> = own.chain(behind).collect();
+        // Walls first: ends that are trifles beside their thickness do not hold anything.
+        let (walls, ends): (Vec<Belongs>, Vec<Belongs>) =
+            belongs.into_iter().partition(|b| self.walls.is_wall[b.group as usize]);
+        wanted.thickness = f64::INFINITY;
+        for b in walls.into_iter().chain(ends) {
+            self.want(b, &mut wanted);
         }
         wanted
+    }
+
+    /// Where a face without a partner holds a node: in its plane, or if it is curved, in the plane beside it.
+    fn end(&self, belongs: Belongs, thickness: f64) -> Option<Plane> {
+        let g = belongs.group as usize;
+        if self.segments.groups[g].area < TRIFLE * thickness * thickness {
+            return None;
+        }
+        if let Some(k) = self.middles.plane_of[g] {
+            return Some(self.middles.planes.plane(k));
+        }
+        if !self.blends.behind(belongs.at).is_empty() {
+            return None;
+        }
+        let own = self.star.of(belongs.at).iter().map(|c| c / 3).filter(|f| self.segments.of(*f) == belongs.group);
+        let normal: DVec3 = own.map(|f| self.solid.normals[f as usize] * self.solid.areas[f as usize]).sum();
+        let normal = Some(normal.normalize_or_zero()).filter(|n| *n != DVec3::ZERO)?;
+        Some(Plane { normal, offset: normal.dot(self.solid.mesh.positions[belongs.at as usize]) })
     }
 
     fn want(&self, belongs: Belongs, wanted: &mut Wanted) {
         let g = belongs.group as usize;
         if !self.walls.is_wall[g] {
-            if let Some(k) = self.middles.plane_of[g] {
-                wanted.ends.push(self.middles.planes.plane(k));
-            }
+            wanted.ends.extend(self.end(belongs, wanted.thickness));
             return;
         }
         for &corner in self.star.of(belongs.at) {
@@ -198,6 +225,7 @@ impl<'a> Replacement<'a> {
                 continue;
             }
             let Some(middle) = self.corners[f as usize][corner as usize % 3] else { continue };
+            wanted.thickness = wanted.thickness.min(middle.thickness);
             if middle.exact.is_some() {
                 if !wanted.walls.contains(&middle.plane) {
                     wanted.walls.push(middle.plane);
@@ -218,10 +246,14 @@ impl<'a> Replacement<'a> {
 fn independent(wanted: &Wanted) -> Vec<Plane> {
     let mut chosen: Vec<Plane> = Vec::with_capacity(3);
     let mut basis: Vec<DVec3> = Vec::with_capacity(3);
-    for plane in wanted.walls.iter().chain(&wanted.ends) {
+    let walls = wanted.walls.iter().map(|p| (p, MEETING));
+    // An end face that runs into a wall at a small angle would pull the node far along it.
+    let ends = wanted.ends.iter().map(|p| (p, MEETING_END));
+    for (plane, least) in walls.chain(ends) {
         let rest = basis.iter().fold(plane.normal, |n, b| n - *b * b.dot(n));
-        // An end face beside a curved wall that it runs into would pull the node off the middle.
-        if rest.length() > MEETING && chosen.len() < 3 {
+        let facets = wanted.facets.iter().map(|f| f.0.normal.cross(plane.normal).length());
+        let beside = least == MEETING_END && facets.fold(1.0, f64::min) < MEETING_END;
+        if rest.length() > least && !beside && chosen.len() < 3 {
             basis.push(rest.normalize());
             chosen.push(*plane);
         }

@@ -78,8 +78,7 @@ impl Seams {
         seams.merged.flatten();
         let edges = seams.edges(borders);
         let open = seams.open_nodes(&edges);
-        let lines: Vec<[u32; 2]> = edges.iter().map(|e| e.0).collect();
-        seams.cut_at_nodes(&lines, &open, near);
+        seams.cut_at_nodes(&edges, &open, near);
         seams
     }
 
@@ -176,13 +175,13 @@ impl Seams {
     fn merge_across(&mut self, borders: &[([u32; 2], u32)], chords: f64) {
         let edges = self.edges(borders);
         let open = self.open_nodes(&edges);
-        let nodes: Vec<u32> = self.nodes(borders).into_iter().filter(|v| open[*v as usize]).collect();
+        let nodes = self.nodes(borders);
         let linked = |a: u32, b: u32| {
             edges.binary_search_by_key(&[a.min(b), a.max(b)], |e| e.0).is_ok()
         };
         let mut nearest: BTreeMap<u32, (f64, u32)> = BTreeMap::new();
         for (a, b) in near_pairs(&self.positions, &nodes, chords) {
-            if linked(a, b) {
+            if linked(a, b) || !(open[a as usize] || open[b as usize]) {
                 continue;
             }
             let d = self.positions[a as usize].distance(self.positions[b as usize]);
@@ -212,7 +211,8 @@ impl Seams {
     }
 
     /// Cuts edges at nodes on them, and where they cross.
-    fn cut_at_nodes(&mut self, edges: &[[u32; 2]], open: &[bool], near: Nearness) {
+    fn cut_at_nodes(&mut self, borders: &[([u32; 2], usize)], open: &[bool], near: Nearness) {
+        let edges: Vec<[u32; 2]> = borders.iter().map(|e| e.0).collect();
         let mut order: Vec<usize> = (0..edges.len()).collect();
         let low = |e: usize| edges[e].map(|v| self.positions[v as usize].x).into_iter().fold(f64::MAX, f64::min);
         let lows: Vec<f64> = (0..edges.len()).map(low).collect();
@@ -230,8 +230,8 @@ impl Seams {
                 if c.min(d).cmpgt(hi).any() || c.max(d).cmplt(lo).any() {
                     continue;
                 }
-                self.nodes_on(edges, e, f, open, near, &mut inner);
-                self.nodes_on(edges, f, e, open, near, &mut inner);
+                self.nodes_on(borders, e, f, open, near, &mut inner);
+                self.nodes_on(borders, f, e, open, near, &mut inner);
                 let apart = edges[e].iter().all(|v| !edges[f].contains(v));
                 if apart && let Some((s, t)) = crossing(a, b, c, d, near.rounding) {
                     crossings.push((e, f, s, t, a.lerp(b, s)));
@@ -259,18 +259,18 @@ impl Seams {
     /// Ends of edge `f` that lie on edge `e`.
     fn nodes_on(
         &self,
-        edges: &[[u32; 2]],
+        edges: &[([u32; 2], usize)],
         e: usize,
         f: usize,
         open: &[bool],
         near: Nearness,
         inner: &mut [Vec<(f64, u32)>],
     ) {
-        let [a, b] = edges[e].map(|v| self.positions[v as usize]);
+        let [a, b] = edges[e].0.map(|v| self.positions[v as usize]);
         let along = b - a;
         let length = along.length();
-        for (k, &v) in edges[f].iter().enumerate() {
-            if edges[e].contains(&v) || inner[e].iter().any(|n| n.1 == v) {
+        for (k, &v) in edges[f].0.iter().enumerate() {
+            if edges[e].0.contains(&v) || inner[e].iter().any(|n| n.1 == v) {
                 continue;
             }
             let p = self.positions[v as usize] - a;
@@ -278,10 +278,11 @@ impl Seams {
             let off = (p - along * s).length();
             let within = s * length > near.rounding && (1.0 - s) * length > near.rounding;
             // Chords lie beside each other; what crosses at an angle is not the same border.
-            let other = self.positions[edges[f][1 - k] as usize] - self.positions[v as usize];
+            let other = self.positions[edges[f].0[1 - k] as usize] - self.positions[v as usize];
             let beside = other.cross(along).length() < BESIDE * other.length() * length;
-            let shares = edges[e].iter().any(|w| edges[f].contains(w));
-            let chord = open[v as usize] && beside && !shares && off <= near.chords;
+            let shares = edges[e].0.iter().any(|w| edges[f].0.contains(w));
+            let gap = open[v as usize] || edges[e].1 == 1;
+            let chord = gap && beside && !shares && off <= near.chords;
             if within && (off <= near.rounding || chord) {
                 inner[e].push((s, v));
             }

@@ -17,6 +17,8 @@ const COPLANAR: f64 = 1e-6;
 const COPLANAR_TURN: f64 = 2e-3;
 /// A plane face is this many times wider than the facets of the curved faces that it runs into.
 const WIDER: f64 = 3.0;
+/// So many regions are looked at between two facets.
+const MOST_BETWEEN: usize = 64;
 /// Below this fold, in radians, edges of a plane face say nothing: the surface may just be finely meshed.
 const SLIGHT_FOLD: f64 = 1.0 / 180.0 * std::f64::consts::PI;
 
@@ -114,6 +116,21 @@ fn fitted_plane(solid: &Solid, faces: &[u32]) -> Plane {
 struct Regions {
     of_face: Vec<u32>,
     faces: Vec<Vec<u32>>,
+    /// Mean normals.
+    normals: Vec<DVec3>,
+    /// Neighbours behind smooth edges, ordered by region, then by neighbour.
+    beside: Vec<Beside>,
+}
+
+/// A region behind the smooth edges of another.
+#[derive(Clone, Copy, Debug)]
+struct Beside {
+    region: u32,
+    other: u32,
+    /// Length of the edges in mm.
+    length: f64,
+    /// Mean fold at them, in radians.
+    fold: f64,
 }
 
 impl Regions {
@@ -158,7 +175,12 @@ impl Regions {
             }
             faces.push(own);
         }
-        Self { of_face, faces }
+        let normal = |own: &Vec<u32>| -> DVec3 {
+            own.iter().map(|f| solid.normals[*f as usize] * solid.areas[*f as usize]).sum()
+        };
+        let normals = faces.iter().map(|own| normal(own).normalize_or_zero()).collect();
+        let beside = Self::smooth_neighbours(solid, &of_face);
+        Self { of_face, faces, normals, beside }
     }
 
     /// Whether each region is a plane face, or else facets of a curved one. O(n).
@@ -166,9 +188,9 @@ impl Regions {
         let widths: Vec<f64> = self.faces.iter().map(|faces| width(solid, faces)).collect();
         let whole_stars = self.regions_with_whole_stars(solid);
         let mut is_plane: Vec<bool> = (0..self.faces.len())
-            .map(|r| self.looks_plane(solid, r as u32, &widths, whole_stars[r]))
+            .map(|r| self.looks_plane(r as u32, &widths, whole_stars[r]))
             .collect();
-        self.settle_bends(solid, &mut is_plane);
+        self.settle_bends(&mut is_plane);
         is_plane
     }
 
@@ -189,49 +211,79 @@ impl Regions {
         whole
     }
 
-    fn looks_plane(&self, solid: &Solid, region: u32, widths: &[f64], whole_star: bool) -> bool {
-        let (mut smooth, mut narrower, mut folds) = (0.0, 0.0, 0.0);
-        for &f in &self.faces[region as usize] {
-            for h in 3 * f..3 * f + 3 {
-                let other = self.of_face[solid.across(h) as usize];
-                let cosine = solid.fold_cosine(h);
-                if other == region || cosine <= SHARP.cos() {
-                    continue;
-                }
-                let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
-                let length = a.distance(b);
-                smooth += length;
-                folds += length * cosine.clamp(-1.0, 1.0).acos();
-                if widths[region as usize] > WIDER * widths[other as usize] {
-                    narrower += length;
-                }
-            }
-        }
+    /// A facet of a curved face has, behind its smooth edges, another about as wide that is turned by less than a sharp edge;
+    /// slivers may lie between (a thickened mesh has one at every fold). A plane face that runs into a fillet has not.
+    fn looks_plane(&self, region: u32, widths: &[f64], whole_star: bool) -> bool {
+        let beside = self.beside(region);
+        let smooth: f64 = beside.iter().map(|b| b.length).sum();
         if smooth == 0.0 {
             return true;
         }
-        let fold = folds / smooth;
-        narrower > 0.5 * smooth && fold > SLIGHT_FOLD && self.faces[region as usize].len() > 1
-            || whole_star && fold > SLIGHT_FOLD
+        let fold = beside.iter().map(|b| b.length * b.fold).sum::<f64>() / smooth;
+        let gentle: f64 = beside
+            .iter()
+            .filter(|b| self.leads_to_a_wide_one(region, b.other, widths))
+            .map(|b| b.length)
+            .sum();
+        fold > SLIGHT_FOLD && (whole_star || gentle < 0.5 * smooth)
+    }
+
+    /// Whether over narrow regions, from one behind an edge of `region` on, a wide one is reached that is not much turned.
+    fn leads_to_a_wide_one(&self, region: u32, first: u32, widths: &[f64]) -> bool {
+        let narrow = widths[region as usize] / WIDER;
+        let mut seen = vec![region, first];
+        let mut at = 1;
+        while at < seen.len() && seen.len() < MOST_BETWEEN {
+            let r = seen[at];
+            at += 1;
+            if self.normals[region as usize].dot(self.normals[r as usize]) < SHARP.cos() {
+                continue;
+            }
+            if widths[r as usize] >= narrow {
+                return true;
+            }
+            for b in self.beside(r) {
+                if !seen.contains(&b.other) {
+                    seen.push(b.other);
+                }
+            }
+        }
+        false
+    }
+
+    /// The regions behind the smooth edges of one.
+    fn beside(&self, region: u32) -> &[Beside] {
+        let from = self.beside.partition_point(|b| b.region < region);
+        let to = self.beside.partition_point(|b| b.region <= region);
+        &self.beside[from..to]
+    }
+
+    fn smooth_neighbours(solid: &Solid, of_face: &[u32]) -> Vec<Beside> {
+        let mut all = Vec::new();
+        for h in 0..3 * solid.len() {
+            let [region, other] = [h / 3, solid.across(h)].map(|f| of_face[f as usize]);
+            let cosine = solid.fold_cosine(h);
+            if region != other && cosine > SHARP.cos() {
+                let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
+                let fold = cosine.clamp(-1.0, 1.0).acos();
+                all.push(Beside { region, other, length: a.distance(b), fold });
+            }
+        }
+        all.sort_by_key(|b| (b.region, b.other));
+        let same = |a: &Beside, b: &Beside| (a.region, a.other) == (b.region, b.other);
+        let joined = |run: &[Beside]| {
+            let length: f64 = run.iter().map(|b| b.length).sum();
+            let fold = run.iter().map(|b| b.length * b.fold).sum::<f64>() / length.max(f64::MIN_POSITIVE);
+            Beside { length, fold, ..run[0] }
+        };
+        all.chunk_by(same).map(joined).collect()
     }
 
     /// Facets that run into one other facet only, and that one into no third: a plate bent once, not a curved one.
-    fn settle_bends(&self, solid: &Solid, is_plane: &mut [bool]) {
-        let smooth_neighbours = |region: u32, is_plane: &[bool]| {
-            let mut found: Vec<u32> = Vec::new();
-            for &f in &self.faces[region as usize] {
-                for h in 3 * f..3 * f + 3 {
-                    let other = self.of_face[solid.across(h) as usize];
-                    let smooth = other != region && solid.fold_cosine(h) > SHARP.cos();
-                    if smooth && !is_plane[other as usize] && !found.contains(&other) {
-                        found.push(other);
-                    }
-                    if found.len() > 1 {
-                        return found;
-                    }
-                }
-            }
-            found
+    fn settle_bends(&self, is_plane: &mut [bool]) {
+        let smooth_neighbours = |region: u32, is_plane: &[bool]| -> Vec<u32> {
+            let curved = self.beside(region).iter().filter(|b| !is_plane[b.other as usize]);
+            curved.map(|b| b.other).take(2).collect()
         };
         let mut settled = Vec::new();
         for region in (0..self.faces.len() as u32).filter(|r| !is_plane[*r as usize]) {
