@@ -273,6 +273,7 @@ fn add_planes(
 }
 
 fn add_curved(sheet: &mut Sheet, solid: &Solid, segments: &Segments, plan: &Plan, seams: &Seams) {
+    let first = sheet.faces.len();
     for &g in &plan.curved {
         for &f in &segments.group(g).faces {
             let sides = [0, 1, 2].map(|k| {
@@ -285,6 +286,37 @@ fn add_curved(sheet: &mut Sheet, solid: &Solid, segments: &Segments, plan: &Plan
             }
         }
     }
+    cancel_doubles(sheet, first);
+}
+
+/// Two faces on the same nodes, left where slivers closed, cancel each other if they face opposite ways; else one stays.
+fn cancel_doubles(sheet: &mut Sheet, first: usize) {
+    let sorted = |face: &[u32; 3]| {
+        let mut nodes = *face;
+        nodes.sort_unstable();
+        nodes
+    };
+    let mut order: Vec<usize> = (first..sheet.faces.len()).collect();
+    order.sort_by_key(|f| (sorted(&sheet.faces[*f]), *f));
+    let mut gone = vec![false; sheet.faces.len()];
+    for run in order.chunk_by(|f, g| sorted(&sheet.faces[*f]) == sorted(&sheet.faces[*g])) {
+        let is_even = |f: &usize| {
+            let [a, b, c] = sheet.faces[*f];
+            [[a, b, c], [b, c, a], [c, a, b]].contains(&sorted(&sheet.faces[*f]))
+        };
+        let even: Vec<usize> = run.iter().copied().filter(is_even).collect();
+        let odd: Vec<usize> = run.iter().copied().filter(|f| !is_even(f)).collect();
+        let pairs = even.len().min(odd.len());
+        let left = usize::from(even.len() != odd.len());
+        for list in [even, odd] {
+            let keep = if list.len() > pairs { left } else { 0 };
+            list.iter().skip(keep).for_each(|f| gone[*f] = true);
+        }
+    }
+    let mut stays = gone.iter().map(|g| !g);
+    sheet.faces.retain(|_| stays.next().unwrap_or(true));
+    let mut stays = gone.iter().map(|g| !g);
+    sheet.sources.retain(|_| stays.next().unwrap_or(true));
 }
 
 /// A face whose sides have nodes on them, as triangles; nothing where two corners are one.

@@ -17,8 +17,15 @@ const MEETING: f64 = 0.03;
 const MEETING_END: f64 = 0.3;
 /// Faces without a partner smaller than this many squares of the thickness hold nothing.
 const TRIFLE: f64 = 0.05;
-/// How much staying beside the starting point weighs against the planes of facets.
-const STAY: f64 = 1e-3;
+/// How much staying beside the starting point weighs against the planes of facets that do not agree on a point, as where
+/// both sides of a wall are tessellated in their own way.
+const STAY: f64 = 3e-3;
+/// The same for facets that do agree.
+const STAY_AGREED: f64 = 1e-4;
+/// Facets agree on a point that is this near to all of them, over the thickness.
+const AGREED: f64 = 2e-3;
+/// A node does not move farther than this many thicknesses for it.
+const REACH: f64 = 0.75;
 /// A chain of edges that turns by more than this, in radians, has a corner there.
 const CORNER_TURN: f64 = std::f64::consts::FRAC_PI_4;
 
@@ -71,6 +78,8 @@ struct Wanted {
     ends: Vec<Plane>,
     /// With weights.
     facets: Vec<(Plane, f64)>,
+    /// The same for facets of end faces.
+    end_facets: Vec<(Plane, f64)>,
     /// Of the thinnest wall about it, in mm.
     thickness: f64,
 }
@@ -168,13 +177,11 @@ impl<'a> Replacement<'a> {
 
     fn place(&self, v: u32, along: DVec3) -> DVec3 {
         let p = self.solid.mesh.positions[v as usize];
-        let wanted = self.wanted(v);
-        let start = p + along;
-        if wanted.facets.is_empty() {
-            return on_planes(start, &independent(&wanted));
-        }
+        let mut wanted = self.wanted(v);
         let planes = independent(&wanted);
-        beside_facets(on_planes(start, &planes), &planes, &wanted.facets)
+        let start = on_planes(p + along, &planes);
+        wanted.facets.append(&mut wanted.end_facets);
+        if wanted.facets.is_empty() { start } else { beside_facets(start, &planes, &wanted.facets, wanted.thickness) }
     }
 
     fn wanted(&self, v: u32) -> Wanted {
@@ -195,28 +202,44 @@ impl<'a> Replacement<'a> {
         wanted
     }
 
-    /// Where a face without a partner holds a node: in its plane, or if it is curved, in the plane beside it.
-    fn end(&self, belongs: Belongs, thickness: f64) -> Option<Plane> {
+    /// Where a face without a partner holds a node: in its plane, or if it is curved, beside the planes of its facets.
+    fn want_end(&self, belongs: Belongs, wanted: &mut Wanted) {
         let g = belongs.group as usize;
-        if self.segments.groups[g].area < TRIFLE * thickness * thickness {
-            return None;
+        let trifle = TRIFLE * wanted.thickness * wanted.thickness;
+        if self.segments.groups[g].area < trifle {
+            return;
         }
         if let Some(k) = self.middles.plane_of[g] {
-            return Some(self.middles.planes.plane(k));
+            wanted.ends.push(self.middles.planes.plane(k));
+            return;
         }
         if !self.blends.behind(belongs.at).is_empty() {
-            return None;
+            return;
         }
-        let own = self.star.of(belongs.at).iter().map(|c| c / 3).filter(|f| self.segments.of(*f) == belongs.group);
-        let normal: DVec3 = own.map(|f| self.solid.normals[f as usize] * self.solid.areas[f as usize]).sum();
-        let normal = Some(normal.normalize_or_zero()).filter(|n| *n != DVec3::ZERO)?;
-        Some(Plane { normal, offset: normal.dot(self.solid.mesh.positions[belongs.at as usize]) })
+        let p = self.solid.mesh.positions[belongs.at as usize];
+        for &corner in self.star.of(belongs.at) {
+            let f = corner / 3;
+            let normal = self.solid.normals[f as usize];
+            let own = self.segments.of(f) == belongs.group && self.solid.areas[f as usize] >= 0.2 * trifle;
+            // What is nearly parallel to the wall is not its end.
+            let beside = wanted.facets.iter().any(|w| w.0.normal.cross(normal).length() < MEETING_END);
+            if own && !beside {
+                wanted.end_facets.push((Plane { normal, offset: normal.dot(p) }, self.angle(corner)));
+            }
+        }
+    }
+
+    /// The angle of a face at a corner; 0 where it has none.
+    fn angle(&self, corner: u32) -> f64 {
+        let [a, b, c] = self.solid.mesh.corners(corner / 3);
+        let [p, q, r] = [[a, b, c], [b, c, a], [c, a, b]][corner as usize % 3];
+        Some((q - p).angle_between(r - p)).filter(|angle| angle.is_finite()).unwrap_or(0.0)
     }
 
     fn want(&self, belongs: Belongs, wanted: &mut Wanted) {
         let g = belongs.group as usize;
         if !self.walls.is_wall[g] {
-            wanted.ends.extend(self.end(belongs, wanted.thickness));
+            self.want_end(belongs, wanted);
             return;
         }
         for &corner in self.star.of(belongs.at) {
@@ -231,12 +254,7 @@ impl<'a> Replacement<'a> {
                     wanted.walls.push(middle.plane);
                 }
             } else {
-                let [a, b, c] = self.solid.mesh.corners(f);
-                let turned = [[a, b, c], [b, c, a], [c, a, b]][corner as usize % 3];
-                let angle = (turned[1] - turned[0]).angle_between(turned[2] - turned[0]);
-                if angle.is_finite() && angle > 0.0 {
-                    wanted.facets.push((middle.plane, angle));
-                }
+                wanted.facets.push((middle.plane, self.angle(corner)));
             }
         }
     }
@@ -285,7 +303,7 @@ fn step_to(p: DVec3, planes: &[Plane]) -> DVec3 {
 }
 
 /// The point on the planes that is as near to the planes of facets as can be (least squares), and otherwise beside `p`.
-fn beside_facets(p: DVec3, planes: &[Plane], facets: &[(Plane, f64)]) -> DVec3 {
+fn beside_facets(p: DVec3, planes: &[Plane], facets: &[(Plane, f64)], thickness: f64) -> DVec3 {
     // What the planes leave free.
     let free = match planes {
         [] => DMat3::IDENTITY,
@@ -304,15 +322,20 @@ fn beside_facets(p: DVec3, planes: &[Plane], facets: &[(Plane, f64)]) -> DVec3 {
         below += w * slope * slope;
     }
     let start = if below > 1e-6 * weight { p - direction * (above / below) } else { p };
-    let mut matrix = DMat3::IDENTITY * (STAY * weight);
-    let mut right = DVec3::ZERO;
+    let (mut matrix, mut right) = (DMat3::ZERO, DVec3::ZERO);
     for (plane, w) in facets {
         let n = free * plane.normal;
         matrix += outer(n) * *w;
         right -= n * (w * plane.height(start));
     }
-    let moved = start + free * (matrix.inverse() * right);
-    if moved.is_finite() { on_planes(moved, planes) } else { p }
+    let with = |stay: f64| {
+        let moved = start + free * ((matrix + DMat3::IDENTITY * (stay * weight)).inverse() * right);
+        if moved.is_finite() { on_planes(moved, planes) } else { p }
+    };
+    let agreed = with(STAY_AGREED);
+    let off = facets.iter().map(|(plane, _)| plane.height(agreed).abs()).fold(0.0, f64::max);
+    let near = agreed.distance(start) < REACH * thickness;
+    if off < AGREED * thickness && near { agreed } else { with(STAY) }
 }
 
 fn outer(n: DVec3) -> DMat3 {

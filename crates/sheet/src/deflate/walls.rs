@@ -94,7 +94,11 @@ impl Walls {
             .map(|g| {
                 let group = segments.group(g);
                 let least = if group.plane.is_some() { PAIRED_PLANE } else { PAIRED_CURVED };
-                walls.partners(g).iter().map(|p| p.area).sum::<f64>() >= least * group.area
+                let partners = walls.partners(g);
+                let paired: f64 = partners.iter().map(|p| p.area).sum();
+                let thick = partners.iter().map(|p| p.area * p.thickness).sum::<f64>() / paired;
+                // What is not even as wide as it is thick is the end of something.
+                paired >= least * group.area && group.area > thick * thick
             })
             .collect();
         // Who is no wall is nobody's partner.
