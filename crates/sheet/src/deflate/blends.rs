@@ -23,6 +23,8 @@ pub(super) struct Belongs {
 const AS_NEAR: f64 = 1.5;
 /// A blend that reaches from a wall to its partner over less than this many thicknesses is the wall's end.
 const END_WIDTH: f64 = 2.5;
+/// A chamfer folds from its walls by less than this, in radians.
+const OBLIQUE: f64 = 70.0 / 180.0 * std::f64::consts::PI;
 /// Cosine above which two faces are too parallel to meet.
 const PARALLEL: f64 = 0.94;
 
@@ -40,16 +42,32 @@ type Reached = Reverse<(u64, u32, u32)>;
 impl Blends {
     /// Finds what lies behind every curved group that is no wall. O(n log n) in nodes of blends, times their neighbours.
     pub(super) fn new(solid: &Solid, segments: &Segments, walls: &Walls) -> Self {
-        let mut blends = Self {
-            is_blend: (0..segments.groups.len())
-                .map(|g| !walls.is_wall[g] && segments.groups[g].plane.is_none())
-                .collect(),
-            ..Self::default()
+        let is_blend = |g: u32| {
+            let group = segments.group(g);
+            !walls.is_wall[g as usize] && (group.plane.is_none() || is_chamfer(solid, segments, walls, g))
         };
-        for g in 0..segments.groups.len() as u32 {
-            if blends.is_blend[g as usize] {
-                blends.look_behind(solid, segments, walls, g);
+        let is_blend: Vec<bool> = (0..segments.groups.len() as u32).map(is_blend).collect();
+        let mut blends = Self { is_blend, ..Self::default() };
+        // Blends that run into each other are one: a fillet in facets, and its corners.
+        let mut seen = vec![false; segments.groups.len()];
+        for first in 0..segments.groups.len() as u32 {
+            if !blends.is_blend[first as usize] || seen[first as usize] {
+                continue;
             }
+            let mut together = vec![first];
+            seen[first as usize] = true;
+            let mut at = 0;
+            while at < together.len() {
+                let sides = segments.group(together[at]).faces.iter().flat_map(|f| 3 * f..3 * f + 3);
+                for other in sides.map(|h| segments.of(solid.across(h))).collect::<Vec<_>>() {
+                    if blends.is_blend[other as usize] && !seen[other as usize] {
+                        seen[other as usize] = true;
+                        together.push(other);
+                    }
+                }
+                at += 1;
+            }
+            blends.look_behind(solid, segments, walls, &together);
         }
         blends
     }
@@ -59,17 +77,17 @@ impl Blends {
         self.of_node.get(&node).map_or(&[], Vec::as_slice)
     }
 
-    fn look_behind(&mut self, solid: &Solid, segments: &Segments, walls: &Walls, blend: u32) {
+    fn look_behind(&mut self, solid: &Solid, segments: &Segments, walls: &Walls, together: &[u32]) {
         // Nodes on the blend's border, by the group beyond.
         let mut borders: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         let mut links: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-        for &f in &segments.group(blend).faces {
+        for f in together.iter().flat_map(|g| segments.group(*g).faces.iter().copied()) {
             for h in 3 * f..3 * f + 3 {
                 let [a, b] = solid.adjacency.ends(h);
                 links.entry(a).or_default().push(b);
                 links.entry(b).or_default().push(a);
                 let other = segments.of(solid.across(h));
-                if other != blend && !self.is_blend[other as usize] {
+                if !self.is_blend[other as usize] {
                     borders.entry(other).or_default().extend([a, b]);
                 }
             }
@@ -117,6 +135,26 @@ impl Blends {
         let sides = segments.group(small).faces.iter().flat_map(|f| 3 * f..3 * f + 3);
         sides.into_iter().any(|h| segments.of(solid.across(h)) == large)
     }
+}
+
+/// Whether a plane face without a partner is a narrow strip that turns from wall to wall in two steps.
+fn is_chamfer(solid: &Solid, segments: &Segments, walls: &Walls, g: u32) -> bool {
+    let group = segments.group(g);
+    let (mut outline, mut oblique) = (0.0, 0.0);
+    for h in group.faces.iter().flat_map(|f| 3 * f..3 * f + 3) {
+        let other = segments.of(solid.across(h));
+        if other == g {
+            continue;
+        }
+        let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
+        let length = a.distance(b);
+        outline += length;
+        let cosine = solid.fold_cosine(h);
+        if walls.is_wall[other as usize] && cosine > OBLIQUE.cos() {
+            oblique += length;
+        }
+    }
+    oblique > 0.5 * outline && 2.0 * group.area < walls.max_thickness * outline
 }
 
 /// The mean normal of the faces of a group about a node of it.

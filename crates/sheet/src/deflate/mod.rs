@@ -123,9 +123,14 @@ pub fn deflate(
     options.check()?;
     let solid = Solid::new(solid)?;
     begin(Step::Segments)?;
-    let segments = Segments::new(&solid);
+    let mut segments = Segments::new(&solid);
     begin(Step::Pairs)?;
-    let walls = Walls::new(&solid, &segments, options);
+    let mut walls = Walls::new(&solid, &segments, options);
+    let flares = walls.flares(&solid, &segments);
+    if !flares.is_empty() {
+        segments.split_off(&flares, &solid);
+        walls = Walls::new(&solid, &segments, options);
+    }
     let blends = Blends::new(&solid, &segments, &walls);
     let unpaired = unpaired(&solid, &segments, &walls);
     if walls.paired_share < THIN {
@@ -134,7 +139,7 @@ pub fn deflate(
     }
     begin(Step::Replace)?;
     let middles = Middles::new(&solid, &segments, &walls);
-    let kept = kept_groups(&solid, &segments, &walls, &middles.of_group);
+    let kept = kept_groups(&solid, &segments, &walls, &blends, &middles.of_group);
     let corners = middles.at_corners(&solid, &segments, &walls);
     let moved = Replacement::new(&solid, &segments, &walls, &middles, &blends, &corners).positions();
     //DEBUG

@@ -209,11 +209,11 @@ impl<'a> Replacement<'a> {
         if self.segments.groups[g].area < trifle {
             return;
         }
-        if let Some(k) = self.middles.plane_of[g] {
-            wanted.ends.push(self.middles.planes.plane(k));
+        if self.blends.is_blend[g] && !self.blends.behind(belongs.at).is_empty() {
             return;
         }
-        if !self.blends.behind(belongs.at).is_empty() {
+        if let Some(k) = self.middles.plane_of[g] {
+            wanted.ends.push(self.middles.planes.plane(k));
             return;
         }
         let p = self.solid.mesh.positions[belongs.at as usize];

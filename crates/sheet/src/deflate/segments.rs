@@ -85,6 +85,23 @@ impl Segments {
         Self { groups, of_face }
     }
 
+    /// Makes groups of their own of sets of faces.
+    pub(super) fn split_off(&mut self, parts: &[Vec<u32>], solid: &Solid) {
+        for part in parts {
+            let number = self.groups.len() as u32;
+            let area = part.iter().map(|f| solid.areas[*f as usize]).sum();
+            for &f in part {
+                self.of_face[f as usize] = number;
+            }
+            self.groups.push(Group { faces: part.clone(), plane: None, area });
+        }
+        let of_face = &self.of_face;
+        for (g, group) in (0u32..).zip(&mut self.groups) {
+            group.faces.retain(|f| of_face[*f as usize] == g);
+            group.area = group.faces.iter().map(|f| solid.areas[*f as usize]).sum();
+        }
+    }
+
     /// The group of a face.
     pub(super) fn of(&self, f: u32) -> u32 {
         self.of_face[f as usize]

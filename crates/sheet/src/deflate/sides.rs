@@ -4,6 +4,7 @@
 //! face on that side is cut along the rib and the other is not; where a plate is folded, the inner faces grow when
 //! they move to the middle and the outer ones shrink, past their own nodes if they are finely meshed.
 
+use super::blends::Blends;
 use super::plane::Plane;
 use super::segments::{SHARP, Segments};
 use super::solid::Solid;
@@ -52,10 +53,16 @@ impl Parity {
 }
 
 /// The groups that become the mid-surface: of each pair of walls one. O(n log n).
-pub(super) fn kept_groups(solid: &Solid, segments: &Segments, walls: &Walls, mids: &[Vec<Plane>]) -> Vec<bool> {
+pub(super) fn kept_groups(
+    solid: &Solid,
+    segments: &Segments,
+    walls: &Walls,
+    blends: &Blends,
+    mids: &[Vec<Plane>],
+) -> Vec<bool> {
     let n = segments.groups.len();
     let mut parity = Parity::new(n);
-    let creases = Creases::new(solid, segments, walls);
+    let creases = Creases::new(solid, segments, walls, blends);
     // Smooth neighbours stay together: nothing else would join them.
     for &[a, b] in &creases.smooth {
         parity.relate(a, b, false);
@@ -100,29 +107,38 @@ const TOUCHED: f64 = 0.1;
 struct Creases {
     /// Pairs of walls that run into each other without a fold.
     smooth: Vec<[u32; 2]>,
-    /// Length of the sharp edges to other walls: hollow ones count, proud ones count against.
+    /// Length of the sharp edges to other walls, and of the edges to blends: hollow ones count, proud ones count against.
     concave: Vec<f64>,
 }
 
 impl Creases {
-    fn new(solid: &Solid, segments: &Segments, walls: &Walls) -> Self {
+    fn new(solid: &Solid, segments: &Segments, walls: &Walls, blends: &Blends) -> Self {
         let mut creases = Self { smooth: Vec::new(), concave: vec![0.0; segments.groups.len()] };
         for h in 0..3 * solid.len() {
             let [g, other] = [h / 3, solid.across(h)].map(|f| segments.of(f));
-            if g == other || ![g, other].iter().all(|g| walls.is_wall[*g as usize]) {
+            let is_wall = |g: u32| walls.is_wall[g as usize];
+            if g == other || !is_wall(g) || !(is_wall(other) || blends.is_blend[other as usize]) {
+                continue;
+            }
+            if !is_wall(other) {
+                creases.count(solid, g, h);
                 continue;
             }
             let both_planes = [g, other].iter().all(|g| segments.group(*g).plane.is_some());
             if solid.fold_cosine(h) > SHARP.cos() && !both_planes {
                 creases.smooth.push([g.min(other), g.max(other)]);
             } else {
-                let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
-                let length = a.distance(b);
-                creases.concave[g as usize] += if solid.is_convex(h) { -length } else { length };
+                creases.count(solid, g, h);
             }
         }
         creases.smooth.sort_unstable();
         creases.smooth.dedup();
         creases
+    }
+
+    fn count(&mut self, solid: &Solid, g: u32, h: u32) {
+        let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
+        let length = a.distance(b);
+        self.concave[g as usize] += if solid.is_convex(h) { -length } else { length };
     }
 }

@@ -5,7 +5,7 @@ use mesh_kernel::query::RayCaster;
 use rayon::prelude::*;
 
 use super::DeflateOptions;
-use super::segments::Segments;
+use super::segments::{SHARP, Segments};
 use super::solid::Solid;
 
 /// Facets of curved walls that lie opposite to each other may be inclined by this much, in radians: both are chords.
@@ -19,6 +19,8 @@ const PAIRED_CURVED: f64 = 0.6;
 const THICKNESS_GAP: f64 = 2.5;
 /// A thickness told from the solid is no more than this share of how far its walls reach.
 const SLENDER: f64 = 0.35;
+/// Facets lean by no more than the folds about them and this, in radians, where their walls are parallel.
+const FLARE: f64 = 5.0 / 180.0 * std::f64::consts::PI;
 /// Rays begin this far inside, over the solid's size.
 const START: f64 = 1e-9;
 
@@ -133,6 +135,63 @@ impl Walls {
     pub(super) fn first(&self, solid: &Solid, p: DVec3, direction: DVec3) -> Option<Opposite> {
         let hit = self.caster.first(p, direction, START * solid.size, self.max_thickness)?;
         Some(Opposite { face: hit.face, distance: hit.distance })
+    }
+
+    /// Where curved walls flare into fillets: sets of faces at their borders that look past the opposite wall. Smooth facets hide
+    /// where a wall ends and a fillet begins; what is opposite tells.
+    pub(super) fn flares(&self, solid: &Solid, segments: &Segments) -> Vec<Vec<u32>> {
+        let fold = |f: u32| {
+            let cosines = (3 * f..3 * f + 3).map(|h| solid.fold_cosine(h)).filter(|c| *c > SHARP.cos());
+            cosines.fold(1.0, f64::min).clamp(-1.0, 1.0).acos()
+        };
+        let curved = |f: u32| {
+            let g = segments.of(f);
+            self.is_wall[g as usize] && segments.group(g).plane.is_none()
+        };
+        let looks_past: Vec<bool> = (0..solid.len())
+            .into_par_iter()
+            .map(|f| {
+                if !curved(f) {
+                    return false;
+                }
+                let Some(opposite) = self.opposite(solid, segments, f, solid.centroid(f)) else { return true };
+                let lean = solid.normals[f as usize].dot(-solid.normals[opposite.face as usize]);
+                let allowed = fold(f).max(fold(opposite.face)) + FLARE;
+                lean < allowed.cos()
+            })
+            .collect();
+        let mut seen = vec![false; solid.len() as usize];
+        let mut found = Vec::new();
+        for seed in (0..solid.len()).filter(|f| looks_past[*f as usize]) {
+            if seen[seed as usize] {
+                continue;
+            }
+            let (g, mut part, mut at) = (segments.of(seed), vec![seed], 0);
+            seen[seed as usize] = true;
+            let mut border = 0.0;
+            while at < part.len() {
+                for h in 3 * part[at]..3 * part[at] + 3 {
+                    let other = solid.across(h);
+                    let to = segments.of(other);
+                    if to != g && self.is_wall[to as usize] && solid.fold_cosine(h) > SHARP.cos() {
+                        let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
+                        border += a.distance(b);
+                    }
+                    if to == g && looks_past[other as usize] && !seen[other as usize] {
+                        seen[other as usize] = true;
+                        part.push(other);
+                    }
+                }
+                at += 1;
+            }
+            // A fillet runs along another wall, and is narrow.
+            let area: f64 = part.iter().map(|f| solid.areas[*f as usize]).sum();
+            if border > 0.0 && area < self.max_thickness * border {
+                part.sort_unstable();
+                found.push(part);
+            }
+        }
+        found
     }
 
     fn looks(&self, solid: &Solid, segments: &Segments, f: u32, cell: f64) -> Vec<Look> {
