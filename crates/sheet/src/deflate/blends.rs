@@ -94,7 +94,9 @@ impl Blends {
         }
         let mut found: BTreeMap<u32, Vec<(f64, Belongs)>> = BTreeMap::new();
         for (&group, nodes) in &borders {
-            for (node, (distance, at)) in nearest(solid, &links, nodes) {
+            for (node, (_, at)) in nearest(solid, &links, nodes) {
+                // Along the edges tells which one; how far it is, the straight line.
+                let distance = solid.mesh.positions[node as usize].distance(solid.mesh.positions[at as usize]);
                 found.entry(node).or_default().push((distance, Belongs { group, at }));
             }
         }

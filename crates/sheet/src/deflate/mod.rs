@@ -151,6 +151,20 @@ pub fn deflate(
                 group.plane.map(|p| p.normal.to_array().map(|x| (x * 1e3).round() / 1e3)), walls.is_wall[g], kept[g], blends.is_blend[g], solid.centroid(group.faces[0]), partners.iter().take(6).collect::<Vec<_>>());
         }
         eprintln!("max_thickness {}", walls.max_thickness);
+        if let Ok(g) = std::env::var("DBGG") {
+            let g: u32 = g.parse().unwrap_or(0);
+            let mut seen = std::collections::BTreeSet::new();
+            for &f in &segments.group(g).faces {
+                for h in 3 * f..3 * f + 3 {
+                    let o = segments.of(solid.across(h));
+                    let [a, _] = solid.adjacency.ends(h);
+                    if o != g && seen.insert(a) {
+                        let p = solid.mesh.positions[a as usize];
+                        eprintln!("node {a} with {o} from {p:.3} to {:.4} r {:.4} behind {:?} corner {:?}", moved[a as usize], (moved[a as usize] - glam::DVec3::new(105.0, 40.0, 0.0)).truncate().length(), blends.behind(a), corners[f as usize][h as usize % 3].map(|m| (m.thickness, m.exact, m.plane.offset)));
+                    }
+                }
+            }
+        }
     }
     //END
     begin(Step::Stitch)?;

@@ -74,8 +74,13 @@ impl Seams {
     ) -> Self {
         let mut seams = Self { positions, merged, cuts: BTreeMap::new() };
         seams.merge_coincident(borders, near.rounding);
-        seams.merge_across(borders, near.chords);
-        seams.merged.flatten();
+        // Where three borders come together, pairs merge one after the other.
+        for _ in 0..ROUNDS {
+            if !seams.merge_across(borders, near.chords) {
+                break;
+            }
+            seams.merged.flatten();
+        }
         let edges = seams.edges(borders);
         let open = seams.open_nodes(&edges);
         seams.cut_at_nodes(&edges, &open, near);
@@ -171,8 +176,8 @@ impl Seams {
         self.merged.flatten();
     }
 
-    /// Merges nodes of open edges that are nearest to each other across a gap between chords.
-    fn merge_across(&mut self, borders: &[([u32; 2], u32)], chords: f64) {
+    /// Merges nodes of open edges that are nearest to each other across a gap between chords; whether there were any.
+    fn merge_across(&mut self, borders: &[([u32; 2], u32)], chords: f64) -> bool {
         let edges = self.edges(borders);
         let open = self.open_nodes(&edges);
         let nodes = self.nodes(borders);
@@ -197,10 +202,11 @@ impl Seams {
             .filter(|(a, (_, b))| **a < *b && nearest.get(b).is_some_and(|n| n.1 == **a))
             .map(|(a, (_, b))| (*a, *b))
             .collect();
-        for (a, b) in mutual {
+        for &(a, b) in &mutual {
             self.positions[a as usize] = (self.positions[a as usize] + self.positions[b as usize]) / 2.0;
             self.merged.join(a, b);
         }
+        !mutual.is_empty()
     }
 
     fn nodes(&self, borders: &[([u32; 2], u32)]) -> Vec<u32> {
@@ -290,6 +296,8 @@ impl Seams {
     }
 }
 
+/// Rounds of merging nodes across gaps, at most.
+const ROUNDS: usize = 6;
 /// Sine of the angle between chords of the same border, at most.
 const BESIDE: f64 = 0.5;
 
