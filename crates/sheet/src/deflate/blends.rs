@@ -20,7 +20,7 @@ pub(super) struct Belongs {
 }
 
 /// Faces that lie farther away than this many times the nearest wall are not blended there.
-const AS_NEAR: f64 = 1.5;
+const AS_NEAR: f64 = 1.2;
 /// A blend that reaches from a wall to its partner over less than this many thicknesses is the wall's end.
 const END_WIDTH: f64 = 2.5;
 /// A chamfer folds from its walls by less than this, in radians.
@@ -103,14 +103,7 @@ impl Blends {
         for (node, mut reached) in found {
             reached.sort_by(|a, b| a.0.total_cmp(&b.0));
             let own: Vec<Belongs> = reached.iter().filter(|r| r.0 == 0.0).map(|r| r.1).collect();
-            let is_end = |r: &(f64, Belongs)| {
-                own.iter().any(|o| {
-                    let partners = walls.partners(o.group);
-                    let pair = partners.iter().find(|p| p.partner == r.1.group);
-                    pair.is_some_and(|p| r.0 <= END_WIDTH * p.thickness)
-                })
-            };
-            if own.is_empty() || reached.iter().any(is_end) {
+            if own.is_empty() {
                 continue;
             }
             let facing = |b: &Belongs| group_normal_at(solid, segments, b);
@@ -122,6 +115,17 @@ impl Blends {
             let others: Vec<&(f64, Belongs)> = reached.iter().filter(|r| meets(&r.1)).collect();
             let wall = others.iter().find(|r| walls.is_wall[r.1.group as usize]);
             let within = wall.map_or(f64::INFINITY, |w| AS_NEAR * w.0);
+            // Between a wall and its partner, and nearer than anything else, is the end of both.
+            let is_end = |r: &(f64, Belongs)| {
+                own.iter().any(|o| {
+                    let mut partners = walls.partners(o.group).iter();
+                    let pair = partners.find(|p| p.partner == r.1.group);
+                    pair.is_some_and(|p| r.0 <= END_WIDTH * p.thickness && wall.is_none_or(|w| r.0 <= w.0))
+                })
+            };
+            if reached.iter().any(is_end) {
+                continue;
+            }
             let end = others.iter().find(|r| !walls.is_wall[r.1.group as usize] && r.0 <= within);
             let behind: Vec<Belongs> = wall.into_iter().chain(end).map(|r| r.1).collect();
             if !behind.is_empty() {
