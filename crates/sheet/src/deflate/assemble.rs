@@ -17,7 +17,7 @@ use super::walls::Walls;
 /// Edges of curved pieces shorter than this share of the wall's thickness close when they got that short by moving.
 const CLOSED: f64 = 0.02;
 /// Borders of curved pieces that are this near, over the thickness, are one.
-const CHORDS: f64 = 0.08;
+const CHORDS: f64 = 0.25;
 /// What is exact agrees to this share of the solid's size.
 const ROUNDING: f64 = 1e-6;
 /// Nodes inside plane pieces keep this share of the thickness away from edges.
@@ -63,16 +63,24 @@ struct PlanePiece {
     is_step: bool,
 }
 
-/// Makes the mid-surface. `moved`: where the solid's nodes go. O(n log n).
+/// Where the solid's nodes go.
+pub(super) struct Moved {
+    pub(super) positions: Vec<DVec3>,
+    /// Whether a node lies beside facets and is only as exact as they are.
+    pub(super) soft: Vec<bool>,
+}
+
+/// Makes the mid-surface. O(n log n).
 pub(super) fn assemble(
     solid: &Solid,
     segments: &Segments,
     walls: &Walls,
     middles: &Middles,
     kept: &[bool],
-    moved: &[DVec3],
+    moved: &Moved,
     options: &DeflateOptions,
 ) -> Sheet {
+    let Moved { positions: moved, soft } = moved;
     let thickness = mean_thickness(walls);
     let near = Nearness { rounding: ROUNDING * solid.size, chords: CHORDS * thickness };
     let plan = plan(solid, segments, walls, middles, kept, moved, options);
@@ -87,7 +95,7 @@ pub(super) fn assemble(
     for (k, g) in (first_curved..).zip(&plan.curved) {
         borders.extend(border(solid, segments, *g).map(|e| (e, k)));
     }
-    let mut seams = Seams::new(moved.to_vec(), merged, &borders, near);
+    let mut seams = Seams::new(moved.clone(), merged, &borders, soft, near);
     if let Some(length) = options.edge_length {
         seams.refine(&borders, length);
     }

@@ -25,7 +25,7 @@ pub use report::{DeflateReport, Feature, ThicknessRange, UnpairedFace};
 use mesh_kernel::TriMesh;
 use mesh_kernel::query::Crossings;
 
-use assemble::assemble;
+use assemble::{Moved, assemble};
 use blends::Blends;
 use middle::Middles;
 use patches::patched;
@@ -141,7 +141,8 @@ pub fn deflate(
     let middles = Middles::new(&solid, &segments, &walls);
     let kept = kept_groups(&solid, &segments, &walls, &blends, &middles.of_group);
     let corners = middles.at_corners(&solid, &segments, &walls);
-    let moved = Replacement::new(&solid, &segments, &walls, &middles, &blends, &corners).positions();
+    let replacement = Replacement::new(&solid, &segments, &walls, &middles, &blends, &corners);
+    let moved = Moved { positions: replacement.positions(), soft: replacement.beside_facets() };
     //DEBUG
     if std::env::var("DBG").is_ok() {
         #[allow(clippy::print_stderr)]
@@ -160,7 +161,7 @@ pub fn deflate(
                     let [a, _] = solid.adjacency.ends(h);
                     if o != g && seen.insert(a) {
                         let p = solid.mesh.positions[a as usize];
-                        eprintln!("node {a} with {o} from {p:.3} to {:.4} r {:.4} behind {:?} corner {:?}", moved[a as usize], (moved[a as usize] - glam::DVec3::new(105.0, 40.0, 0.0)).truncate().length(), blends.behind(a), corners[f as usize][h as usize % 3].map(|m| (m.thickness, m.exact, m.plane.offset)));
+                        eprintln!("node {a} with {o} from {p:.3} to {:.4} r {:.4} behind {:?} corner {:?}", moved.positions[a as usize], (moved.positions[a as usize] - glam::DVec3::new(105.0, 40.0, 0.0)).truncate().length(), blends.behind(a), corners[f as usize][h as usize % 3].map(|m| (m.thickness, m.exact, m.plane.offset)));
                     }
                 }
             }

@@ -97,6 +97,12 @@ impl<'a> Replacement<'a> {
         Self { solid, segments, walls, middles, blends, corners, star }
     }
 
+    /// Whether each node lies beside facets and not just on planes: then it is only as exact as chords are. O(n).
+    pub(super) fn beside_facets(&self) -> Vec<bool> {
+        let nodes = self.solid.mesh.positions.len() as u32;
+        (0..nodes).into_par_iter().map(|v| !self.wanted(v).facets.is_empty()).collect()
+    }
+
     /// Where all nodes move to. O(n).
     pub(super) fn positions(&self) -> Vec<DVec3> {
         let nodes = self.solid.mesh.positions.len() as u32;

@@ -51,6 +51,8 @@ impl Merged {
 pub(super) struct Seams {
     pub(super) positions: Vec<DVec3>,
     pub(super) merged: Merged,
+    /// Whether a node is only as exact as chords are.
+    soft: Vec<bool>,
     /// Nodes inside an edge (smaller number first), in order from the first end.
     cuts: BTreeMap<[u32; 2], Vec<u32>>,
 }
@@ -70,9 +72,10 @@ impl Seams {
         positions: Vec<DVec3>,
         merged: Merged,
         borders: &[([u32; 2], u32)],
+        soft: &[bool],
         near: Nearness,
     ) -> Self {
-        let mut seams = Self { positions, merged, cuts: BTreeMap::new() };
+        let mut seams = Self { positions, merged, soft: soft.to_vec(), cuts: BTreeMap::new() };
         seams.merge_coincident(borders, near.rounding);
         // Where three borders come together, pairs merge one after the other.
         for _ in 0..ROUNDS {
@@ -138,6 +141,7 @@ impl Seams {
 
     fn add(&mut self, p: DVec3) -> u32 {
         self.positions.push(p);
+        self.soft.push(true);
         self.merged.push()
     }
 
@@ -154,6 +158,18 @@ impl Seams {
         edges.sort_unstable();
         edges.dedup();
         edges.chunk_by(|a, b| a.0 == b.0).map(|run| (run[0].0, run.len())).collect()
+    }
+
+    /// The shortest edge at every node.
+    fn shortest_edges(&self, edges: &[([u32; 2], usize)]) -> Vec<f64> {
+        let mut shortest = vec![f64::INFINITY; self.positions.len()];
+        for ([a, b], _) in edges {
+            let length = self.positions[*a as usize].distance(self.positions[*b as usize]);
+            for v in [a, b] {
+                shortest[*v as usize] = shortest[*v as usize].min(length);
+            }
+        }
+        shortest
     }
 
     /// Whether each node has an edge that borders one piece only.
@@ -185,11 +201,17 @@ impl Seams {
             edges.binary_search_by_key(&[a.min(b), a.max(b)], |e| e.0).is_ok()
         };
         let mut nearest: BTreeMap<u32, (f64, u32)> = BTreeMap::new();
+        let shortest = self.shortest_edges(&edges);
         for (a, b) in near_pairs(&self.positions, &nodes, chords) {
-            if linked(a, b) || !(open[a as usize] || open[b as usize]) {
+            let is_soft = self.soft[a as usize] || self.soft[b as usize];
+            if linked(a, b) || !is_soft || !(open[a as usize] || open[b as usize]) {
                 continue;
             }
             let d = self.positions[a as usize].distance(self.positions[b as usize]);
+            // Nodes that are far apart for their edges are cut into each other's edges instead.
+            if d > MERGED_EDGE * shortest[a as usize].max(shortest[b as usize]) {
+                continue;
+            }
             for (from, to) in [(a, b), (b, a)] {
                 let best = nearest.entry(from).or_insert((f64::INFINITY, to));
                 if d < best.0 {
@@ -203,7 +225,14 @@ impl Seams {
             .map(|(a, (_, b))| (*a, *b))
             .collect();
         for &(a, b) in &mutual {
-            self.positions[a as usize] = (self.positions[a as usize] + self.positions[b as usize]) / 2.0;
+            // What is exact stays where it is.
+            let (p, q) = (self.positions[a as usize], self.positions[b as usize]);
+            self.positions[a as usize] = match [a, b].map(|v| self.soft[v as usize]) {
+                [false, _] => p,
+                [true, false] => q,
+                [true, true] => (p + q) / 2.0,
+            };
+            self.soft[a as usize] &= self.soft[b as usize];
             self.merged.join(a, b);
         }
         !mutual.is_empty()
@@ -286,9 +315,9 @@ impl Seams {
             // Chords lie beside each other; what crosses at an angle is not the same border.
             let other = self.positions[edges[f].0[1 - k] as usize] - self.positions[v as usize];
             let beside = other.cross(along).length() < BESIDE * other.length() * length;
-            let shares = edges[e].0.iter().any(|w| edges[f].0.contains(w));
             let gap = open[v as usize] || edges[e].1 == 1;
-            let chord = gap && beside && !shares && off <= near.chords;
+            let is_soft = self.soft[v as usize] || edges[e].0.iter().any(|w| self.soft[*w as usize]);
+            let chord = gap && is_soft && beside && off <= near.chords.min(SAGITTA * length);
             if within && (off <= near.rounding || chord) {
                 inner[e].push((s, v));
             }
@@ -298,6 +327,10 @@ impl Seams {
 
 /// Rounds of merging nodes across gaps, at most.
 const ROUNDS: usize = 6;
+/// Nodes of chords that are one are no farther apart than this share of an edge.
+const MERGED_EDGE: f64 = 0.4;
+/// A chord is no farther than this share of its length from its arc, if one of eight closes a circle.
+const SAGITTA: f64 = 0.2;
 /// Sine of the angle between chords of the same border, at most.
 const BESIDE: f64 = 0.5;
 

@@ -19,6 +19,8 @@ const PAIRED_CURVED: f64 = 0.6;
 const THICKNESS_GAP: f64 = 2.5;
 /// A thickness told from the solid is no more than this share of how far its walls reach.
 const SLENDER: f64 = 0.35;
+/// A flare meets the wall that it runs into at less than this, in radians.
+const OBLIQUE: f64 = 70.0 / 180.0 * std::f64::consts::PI;
 /// Facets lean by no more than the folds about them and this, in radians, where their walls are parallel.
 const FLARE: f64 = 5.0 / 180.0 * std::f64::consts::PI;
 /// Rays begin this far inside, over the solid's size.
@@ -173,7 +175,7 @@ impl Walls {
                 for h in 3 * part[at]..3 * part[at] + 3 {
                     let other = solid.across(h);
                     let to = segments.of(other);
-                    if to != g && self.is_wall[to as usize] && solid.fold_cosine(h) > SHARP.cos() {
+                    if to != g && self.is_wall[to as usize] && solid.fold_cosine(h) > OBLIQUE.cos() {
                         let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
                         border += a.distance(b);
                     }
