@@ -97,7 +97,7 @@ pub(super) fn assemble(
     }
     let mut seams = Seams::new(moved.clone(), merged, &borders, soft, near);
     if let Some(length) = options.edge_length {
-        seams.refine(&borders, length);
+        seams.refine(length);
     }
     let mut sheet = Sheet { positions: seams.positions.clone(), ..Sheet::default() };
     add_planes(&mut sheet, solid, segments, &plan, &seams, &borders, options, MARGIN * thickness);

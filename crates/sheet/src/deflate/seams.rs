@@ -53,8 +53,12 @@ pub(super) struct Seams {
     pub(super) merged: Merged,
     /// Whether a node is only as exact as chords are.
     soft: Vec<bool>,
-    /// Nodes inside an edge (smaller number first), in order from the first end.
-    cuts: BTreeMap<[u32; 2], Vec<u32>>,
+    /// The different edges of borders, smaller node first, ascending.
+    edges: Vec<[u32; 2]>,
+    /// The nodes of each, from the smaller end on.
+    paths: Vec<Vec<u32>>,
+    /// The pieces that each borders.
+    pieces: Vec<Vec<u32>>,
 }
 
 /// How near things must be to be one, in mm.
@@ -66,8 +70,12 @@ pub(super) struct Nearness {
     pub(super) chords: f64,
 }
 
+/// A part of a border between two neighbouring nodes, and how many pieces it borders.
+type Part = ([u32; 2], usize);
+
 impl Seams {
-    /// Makes borders agree. `borders`: edges with the number of their piece. O(n log n) and what lies beside each other.
+    /// Makes borders agree. `borders`: edges with the number of their piece; `soft`: whether each node is only as exact as
+    /// chords are. O(n log n) and what lies beside each other.
     pub(super) fn new(
         positions: Vec<DVec3>,
         merged: Merged,
@@ -75,67 +83,84 @@ impl Seams {
         soft: &[bool],
         near: Nearness,
     ) -> Self {
-        let mut seams = Self { positions, merged, soft: soft.to_vec(), cuts: BTreeMap::new() };
-        seams.merge_coincident(borders, near.rounding);
-        // Where three borders come together, pairs merge one after the other.
+        let mut all: Vec<([u32; 2], u32)> =
+            borders.iter().map(|([a, b], piece)| ([*a.min(b), *a.max(b)], *piece)).collect();
+        all.sort_unstable();
+        all.dedup();
+        let runs: Vec<&[([u32; 2], u32)]> = all.chunk_by(|a, b| a.0 == b.0).collect();
+        let edges: Vec<[u32; 2]> = runs.iter().map(|run| run[0].0).collect();
+        let pieces = runs.iter().map(|run| run.iter().map(|e| e.1).collect()).collect();
+        let paths = edges.iter().map(|e| e.to_vec()).collect();
+        let mut seams = Self { positions, merged, soft: soft.to_vec(), edges, paths, pieces };
+        seams.update();
+        let nodes = seams.nodes();
+        for (a, b) in near_pairs(&seams.positions, &nodes, near.rounding) {
+            seams.merged.join(a, b);
+        }
+        seams.update();
         for _ in 0..ROUNDS {
-            if !seams.merge_across(borders, near.chords) {
+            // Where three borders come together, pairs merge one after the other.
+            let merging = (0..ROUNDS).take_while(|_| seams.merge_across(near.chords)).count();
+            if seams.cut(near) == 0 && merging == 0 {
                 break;
             }
-            seams.merged.flatten();
         }
-        let edges = seams.edges(borders);
-        let open = seams.open_nodes(&edges);
-        seams.cut_at_nodes(&edges, &open, near);
         seams
     }
 
     /// The nodes from `a` to `b` along an edge, both ends included, after merging and cutting; one node where they are one.
     pub(super) fn path(&self, a: u32, b: u32) -> Vec<u32> {
-        let (a, b) = (self.merged.find(a), self.merged.find(b));
-        if a == b {
-            return vec![a];
-        }
-        let inner = self.cuts.get(&[a.min(b), a.max(b)]).map_or(&[][..], Vec::as_slice);
-        let mut path = vec![a];
-        if a < b {
-            path.extend(inner);
-        } else {
-            path.extend(inner.iter().rev());
-        }
-        path.push(b);
-        path.dedup();
-        path
+        let Ok(k) = self.edges.binary_search(&[a.min(b), a.max(b)]) else {
+            let mut path = vec![self.merged.find(a), self.merged.find(b)];
+            path.dedup();
+            return path;
+        };
+        let path = &self.paths[k];
+        if a < b { path.clone() } else { path.iter().rev().copied().collect() }
     }
 
-    /// Cuts edges into parts of about `length` at most.
-    pub(super) fn refine(&mut self, borders: &[([u32; 2], u32)], length: f64) {
-        for ([a, b], _) in self.edges(borders) {
-            let path = self.path(a, b);
-            let mut fine = Vec::new();
+    /// Cuts borders into parts of about `length` at most.
+    pub(super) fn refine(&mut self, length: f64) {
+        let parts = self.parts();
+        let mut inner: BTreeMap<[u32; 2], Vec<u32>> = BTreeMap::new();
+        for ([a, b], _) in parts {
+            let [p, q] = [a, b].map(|v| self.positions[v as usize]);
+            let count = (p.distance(q) / length * 0.999).ceil().max(1.0) as u32;
+            let added = (1..count).map(|k| self.add(p.lerp(q, f64::from(k) / f64::from(count)))).collect();
+            inner.insert([a, b], added);
+        }
+        self.insert(&inner);
+    }
+
+    /// Puts nodes into the parts that they lie on, in order from the smaller end.
+    fn insert(&mut self, inner: &BTreeMap<[u32; 2], Vec<u32>>) {
+        for path in &mut self.paths {
+            let mut longer = Vec::with_capacity(path.len());
             for pair in path.windows(2) {
-                let [p, q] = [pair[0], pair[1]].map(|v| self.positions[v as usize]);
-                let parts = (p.distance(q) / length * 0.999).ceil().max(1.0) as u32;
-                fine.push(pair[0]);
-                for k in 1..parts {
-                    fine.push(self.add(p.lerp(q, f64::from(k) / f64::from(parts))));
+                longer.push(pair[0]);
+                let key = [pair[0].min(pair[1]), pair[0].max(pair[1])];
+                let between = inner.get(&key).map_or(&[][..], Vec::as_slice);
+                if pair[0] < pair[1] {
+                    longer.extend(between);
+                } else {
+                    longer.extend(between.iter().rev());
                 }
             }
-            fine.push(path[path.len() - 1]);
-            self.set_path(&fine);
+            longer.extend(path.last());
+            *path = longer;
         }
     }
 
-    fn set_path(&mut self, path: &[u32]) {
-        let (first, last) = (path[0], path[path.len() - 1]);
-        let mut inner = path[1..path.len() - 1].to_vec();
-        if first > last {
-            inner.reverse();
-        }
-        if inner.is_empty() {
-            self.cuts.remove(&[first.min(last), first.max(last)]);
-        } else {
-            self.cuts.insert([first.min(last), first.max(last)], inner);
+    /// Brings paths up to date with what was merged.
+    fn update(&mut self) {
+        self.merged.flatten();
+        for path in &mut self.paths {
+            path.iter_mut().for_each(|v| *v = self.merged.find(*v));
+            path.dedup();
+            // There and back again is nothing.
+            while let Some(k) = path.windows(3).position(|w| w[0] == w[2]) {
+                path.drain(k..k + 2);
+            }
         }
     }
 
@@ -145,63 +170,28 @@ impl Seams {
         self.merged.push()
     }
 
-    /// The different edges as they are now, ascending, with the number of pieces that each borders.
-    fn edges(&self, borders: &[([u32; 2], u32)]) -> Vec<([u32; 2], usize)> {
-        let mut edges: Vec<([u32; 2], u32)> = borders
-            .iter()
-            .map(|([a, b], piece)| {
-                let (a, b) = (self.merged.find(*a), self.merged.find(*b));
-                ([a.min(b), a.max(b)], *piece)
-            })
-            .filter(|([a, b], _)| a != b)
-            .collect();
-        edges.sort_unstable();
-        edges.dedup();
-        edges.chunk_by(|a, b| a.0 == b.0).map(|run| (run[0].0, run.len())).collect()
-    }
-
-    /// The shortest edge at every node.
-    fn shortest_edges(&self, edges: &[([u32; 2], usize)]) -> Vec<f64> {
-        let mut shortest = vec![f64::INFINITY; self.positions.len()];
-        for ([a, b], _) in edges {
-            let length = self.positions[*a as usize].distance(self.positions[*b as usize]);
-            for v in [a, b] {
-                shortest[*v as usize] = shortest[*v as usize].min(length);
+    /// The different parts of all borders, ascending, with the number of pieces that each borders.
+    fn parts(&self) -> Vec<Part> {
+        let mut parts: Vec<([u32; 2], u32)> = Vec::new();
+        for (path, pieces) in self.paths.iter().zip(&self.pieces) {
+            for pair in path.windows(2) {
+                let ends = [pair[0].min(pair[1]), pair[0].max(pair[1])];
+                parts.extend(pieces.iter().map(|piece| (ends, *piece)));
             }
         }
-        shortest
-    }
-
-    /// Whether each node has an edge that borders one piece only.
-    fn open_nodes(&self, edges: &[([u32; 2], usize)]) -> Vec<bool> {
-        let mut open = vec![false; self.positions.len()];
-        for (ends, pieces) in edges {
-            if *pieces == 1 {
-                ends.iter().for_each(|v| open[*v as usize] = true);
-            }
-        }
-        open
-    }
-
-    /// Merges nodes of borders that are in one place.
-    fn merge_coincident(&mut self, borders: &[([u32; 2], u32)], rounding: f64) {
-        let nodes = self.nodes(borders);
-        for (a, b) in near_pairs(&self.positions, &nodes, rounding) {
-            self.merged.join(a, b);
-        }
-        self.merged.flatten();
+        parts.sort_unstable();
+        parts.dedup();
+        parts.chunk_by(|a, b| a.0 == b.0).map(|run| (run[0].0, run.len())).collect()
     }
 
     /// Merges nodes of open edges that are nearest to each other across a gap between chords; whether there were any.
-    fn merge_across(&mut self, borders: &[([u32; 2], u32)], chords: f64) -> bool {
-        let edges = self.edges(borders);
-        let open = self.open_nodes(&edges);
-        let nodes = self.nodes(borders);
-        let linked = |a: u32, b: u32| {
-            edges.binary_search_by_key(&[a.min(b), a.max(b)], |e| e.0).is_ok()
-        };
+    fn merge_across(&mut self, chords: f64) -> bool {
+        let parts = self.parts();
+        let open = self.open_nodes(&parts);
+        let nodes = self.nodes();
+        let linked = |a: u32, b: u32| parts.binary_search_by_key(&[a.min(b), a.max(b)], |e| e.0).is_ok();
         let mut nearest: BTreeMap<u32, (f64, u32)> = BTreeMap::new();
-        let shortest = self.shortest_edges(&edges);
+        let shortest = self.shortest_edges(&parts);
         for (a, b) in near_pairs(&self.positions, &nodes, chords) {
             let is_soft = self.soft[a as usize] || self.soft[b as usize];
             if linked(a, b) || !is_soft || !(open[a as usize] || open[b as usize]) {
@@ -235,18 +225,44 @@ impl Seams {
             self.soft[a as usize] &= self.soft[b as usize];
             self.merged.join(a, b);
         }
+        self.update();
         !mutual.is_empty()
     }
 
-    fn nodes(&self, borders: &[([u32; 2], u32)]) -> Vec<u32> {
-        let mut nodes: Vec<u32> = borders.iter().flat_map(|b| b.0).map(|v| self.merged.find(v)).collect();
+    fn nodes(&self) -> Vec<u32> {
+        let mut nodes: Vec<u32> = self.paths.iter().flatten().copied().collect();
         nodes.sort_unstable();
         nodes.dedup();
         nodes
     }
 
-    /// Cuts edges at nodes on them, and where they cross.
-    fn cut_at_nodes(&mut self, borders: &[([u32; 2], usize)], open: &[bool], near: Nearness) {
+    /// The shortest edge at every node.
+    fn shortest_edges(&self, edges: &[([u32; 2], usize)]) -> Vec<f64> {
+        let mut shortest = vec![f64::INFINITY; self.positions.len()];
+        for ([a, b], _) in edges {
+            let length = self.positions[*a as usize].distance(self.positions[*b as usize]);
+            for v in [a, b] {
+                shortest[*v as usize] = shortest[*v as usize].min(length);
+            }
+        }
+        shortest
+    }
+
+    /// Whether each node has an edge that borders one piece only.
+    fn open_nodes(&self, edges: &[([u32; 2], usize)]) -> Vec<bool> {
+        let mut open = vec![false; self.positions.len()];
+        for (ends, pieces) in edges {
+            if *pieces == 1 {
+                ends.iter().for_each(|v| open[*v as usize] = true);
+            }
+        }
+        open
+    }
+
+    /// Cuts parts at nodes on them, and where they cross; how many were cut.
+    fn cut(&mut self, near: Nearness) -> usize {
+        let borders = self.parts();
+        let open = self.open_nodes(&borders);
         let edges: Vec<[u32; 2]> = borders.iter().map(|e| e.0).collect();
         let mut order: Vec<usize> = (0..edges.len()).collect();
         let low = |e: usize| edges[e].map(|v| self.positions[v as usize].x).into_iter().fold(f64::MAX, f64::min);
@@ -265,8 +281,8 @@ impl Seams {
                 if c.min(d).cmpgt(hi).any() || c.max(d).cmplt(lo).any() {
                     continue;
                 }
-                self.nodes_on(borders, e, f, open, near, &mut inner);
-                self.nodes_on(borders, f, e, open, near, &mut inner);
+                self.nodes_on(&borders, e, f, &open, near, &mut inner);
+                self.nodes_on(&borders, f, e, &open, near, &mut inner);
                 let apart = edges[e].iter().all(|v| !edges[f].contains(v));
                 if apart && let Some((s, t)) = crossing(a, b, c, d, near.rounding) {
                     crossings.push((e, f, s, t, a.lerp(b, s)));
@@ -282,13 +298,17 @@ impl Seams {
             inner[e].push((s, node));
             inner[f].push((t, node));
         }
+        let mut cuts: BTreeMap<[u32; 2], Vec<u32>> = BTreeMap::new();
         for (edge, mut nodes) in edges.iter().zip(inner) {
             nodes.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
             nodes.dedup_by_key(|n| n.1);
             if !nodes.is_empty() {
-                self.cuts.insert(*edge, nodes.into_iter().map(|n| n.1).collect());
+                cuts.insert(*edge, nodes.into_iter().map(|n| n.1).collect());
             }
         }
+        self.insert(&cuts);
+        self.update();
+        cuts.len()
     }
 
     /// Ends of edge `f` that lie on edge `e`.
