@@ -22,6 +22,10 @@ const CHORDS: f64 = 0.25;
 const ROUNDING: f64 = 1e-6;
 /// Nodes inside plane pieces keep this share of the thickness away from edges.
 const MARGIN: f64 = 0.4;
+/// Sides of a wall whose normals differ by less than this are parallel.
+const PARALLEL: f64 = 1e-4;
+/// The thickness changes by this share along an edge of a wall with draft.
+const EVEN: f64 = 0.01;
 /// Strips narrower than this share of the thickness are no steps.
 const STEP: f64 = 0.02;
 
@@ -61,6 +65,8 @@ struct PlanePiece {
     plane: Plane,
     groups: Vec<(u32, bool)>,
     is_step: bool,
+    /// How long edges may be so that the thickness is nearly even in every triangle; `None` where it is even.
+    edge_length: Option<f64>,
 }
 
 /// Where the solid's nodes go.
@@ -96,9 +102,11 @@ pub(super) fn assemble(
         borders.extend(border(solid, segments, *g).map(|e| (e, k)));
     }
     let mut seams = Seams::new(moved.clone(), merged, &borders, soft, near);
-    if let Some(length) = options.edge_length {
-        seams.refine(length);
-    }
+    let length_of = |k: u32| {
+        let own = plan.planes.get(k as usize).and_then(|piece| piece.edge_length);
+        own.into_iter().chain(options.edge_length).fold(f64::INFINITY, f64::min)
+    };
+    seams.refine(length_of);
     let mut sheet = Sheet { positions: seams.positions.clone(), ..Sheet::default() };
     add_planes(&mut sheet, solid, segments, &plan, &seams, &borders, options, MARGIN * thickness);
     add_curved(&mut sheet, solid, segments, &plan, &seams);
@@ -137,9 +145,18 @@ fn plan(
             Some((plane, number)) => {
                 let shared = middles.mid_planes.plane(number);
                 let piece = by_plane.entry(number);
-                let piece =
-                    piece.or_insert_with(|| PlanePiece { plane: shared, groups: Vec::new(), is_step: false });
+                let piece = piece.or_insert_with(|| PlanePiece {
+                    plane: shared,
+                    groups: Vec::new(),
+                    is_step: false,
+                    edge_length: None,
+                });
                 piece.groups.push((g, plane.normal.dot(shared.normal) > 0.0));
+                let even = even_length(segments, walls, g);
+                piece.edge_length = match (piece.edge_length, even) {
+                    (Some(a), Some(b)) => Some(a.min(b)),
+                    (a, b) => a.or(b),
+                };
             }
             None => curved.push(g),
         }
@@ -157,6 +174,16 @@ fn plan(
         planes.extend(steps(solid, segments, walls, kept, moved));
     }
     Plan { planes, curved }
+}
+
+/// How long edges may be in a wall whose sides are not parallel.
+fn even_length(segments: &Segments, walls: &Walls, g: u32) -> Option<f64> {
+    let own = segments.group(g).plane?;
+    let of_pair = |p: &super::walls::Pair| {
+        let slope = (own.normal + segments.group(p.partner).plane?.normal).length();
+        (slope > PARALLEL).then(|| EVEN * p.thickness / slope)
+    };
+    walls.partners(g).iter().filter_map(of_pair).min_by(f64::total_cmp)
 }
 
 /// Faces without a partner that stand between two middles: where the thickness steps.
@@ -192,7 +219,12 @@ fn steps(
         let thin = beside.iter().flat_map(|b| walls.partners(*b)).map(|p| p.thickness).fold(f64::MAX, f64::min);
         if width > STEP * thin && width < walls.max_thickness && width < 0.5 * longest {
             let origin = moved_plane(solid, segments, g, moved, plane);
-            found.push(PlanePiece { plane: origin, groups: vec![(g, true)], is_step: true });
+            found.push(PlanePiece {
+                plane: origin,
+                groups: vec![(g, true)],
+                is_step: true,
+                edge_length: None,
+            });
         }
     }
     found
@@ -256,7 +288,8 @@ fn add_planes(
         }
         let on = |v: u32| piece.plane.height(sheet.positions[v as usize]).abs() < rounding;
         outline.lines = all.iter().copied().filter(|[a, b]| on(*a) && on(*b)).collect();
-        if options.edge_length.is_none() && !piece.is_step {
+        let length = piece.edge_length.into_iter().chain(options.edge_length).min_by(f64::total_cmp);
+        if length.is_none() && !piece.is_step {
             let near = Near::new(&outline, &sheet.positions, margin);
             let mut inside: BTreeSet<u32> = BTreeSet::new();
             for (g, _) in &piece.groups {
@@ -270,7 +303,7 @@ fn add_planes(
                 .collect();
         }
         let number = sheet.planes.len() as u32;
-        let filled = fill(&outline, &sheet.positions, options.edge_length);
+        let filled = fill(&outline, &sheet.positions, length);
         sheet.positions.extend(filled.added);
         sheet.sources.extend(filled.faces.iter().map(|_| Source::Plane(number)));
         sheet.faces.extend(filled.faces);

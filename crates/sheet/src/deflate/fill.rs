@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
-use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, RefinementParameters, Triangulation};
+use spade::{AngleLimit, ConstrainedDelaunayTriangulation, HasPosition, Point2, RefinementParameters, Triangulation};
 
 use super::plane::Plane;
 
@@ -102,10 +102,15 @@ pub(super) fn fill(outline: &Outline, positions: &[DVec3], edge_length: Option<f
     if let Some(length) = edge_length {
         // Keeping the edges, so that neighbours still agree; outside is refined in vain but not by much.
         let area = 0.433 * length * length;
+        let whole: f64 = cdt.inner_faces().map(|f| f.area()).sum();
+        let most = (MOST_TIMES * whole / area + 1000.0).min(MOST_ADDED) as usize;
         let parameters = RefinementParameters::<f64>::new()
             .keep_constraint_edges()
+            // Edges much shorter than the wanted ones would be surrounded by ever more triangles.
+            .with_angle_limit(AngleLimit::from_deg(LEAST_ANGLE))
+            .with_min_required_area(LEAST_AREA * area)
             .with_max_allowed_area(area)
-            .with_max_additional_vertices(MOST_ADDED);
+            .with_max_additional_vertices(most);
         cdt.refine(parameters);
     }
     let inside = inside_faces(&cdt, &winding);
@@ -130,8 +135,12 @@ pub(super) fn fill(outline: &Outline, positions: &[DVec3], edge_length: Option<f
     filled
 }
 
-/// Most nodes that refinement may add to a plane.
-const MOST_ADDED: usize = 4_000_000;
+/// Most nodes that refinement may add to a plane, and how many times those that its area wants.
+const MOST_ADDED: f64 = 4e6;
+const MOST_TIMES: f64 = 6.0;
+/// Triangles with a smaller angle, in degrees, are refined, unless they are smaller than this share of the wanted area.
+const LEAST_ANGLE: f64 = 20.0;
+const LEAST_AREA: f64 = 0.1;
 
 /// The parts of a constraint between two nodes: it is split at nodes on its way.
 fn parts(

@@ -4,6 +4,7 @@ mod assemble;
 mod blends;
 mod error;
 mod fill;
+mod follow;
 mod middle;
 mod options;
 mod patches;
@@ -27,6 +28,7 @@ use mesh_kernel::query::Crossings;
 
 use assemble::{Moved, assemble};
 use blends::Blends;
+use follow::follow;
 use middle::Middles;
 use patches::patched;
 use replace::Replacement;
@@ -169,7 +171,8 @@ pub fn deflate(
     }
     //END
     begin(Step::Stitch)?;
-    let sheet = assemble(&solid, &segments, &walls, &middles, &kept, &moved, options);
+    let mut sheet = assemble(&solid, &segments, &walls, &middles, &kept, &moved, options);
+    follow(&mut sheet, &solid, &segments, &walls);
     let thickness = thicknesses(&sheet, &solid, &segments, &walls, &middles, &corners);
     let patched = patched(&sheet, &segments);
     begin(Step::Measure)?;

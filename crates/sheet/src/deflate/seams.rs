@@ -119,13 +119,20 @@ impl Seams {
         if a < b { path.clone() } else { path.iter().rev().copied().collect() }
     }
 
-    /// Cuts borders into parts of about `length` at most.
-    pub(super) fn refine(&mut self, length: f64) {
-        let parts = self.parts();
+    /// Cuts borders into parts of about a length at most that their pieces ask for.
+    pub(super) fn refine(&mut self, length_of: impl Fn(u32) -> f64) {
+        let mut lengths: BTreeMap<[u32; 2], f64> = BTreeMap::new();
+        for (path, pieces) in self.paths.iter().zip(&self.pieces) {
+            let length = pieces.iter().map(|p| length_of(*p)).fold(f64::INFINITY, f64::min);
+            for pair in path.windows(2) {
+                let least = lengths.entry([pair[0].min(pair[1]), pair[0].max(pair[1])]).or_insert(length);
+                *least = least.min(length);
+            }
+        }
         let mut inner: BTreeMap<[u32; 2], Vec<u32>> = BTreeMap::new();
-        for ([a, b], _) in parts {
+        for ([a, b], length) in lengths {
             let [p, q] = [a, b].map(|v| self.positions[v as usize]);
-            let count = (p.distance(q) / length * 0.999).ceil().max(1.0) as u32;
+            let count = (p.distance(q) / length * 0.999).ceil().clamp(1.0, MOST_PARTS) as u32;
             let added = (1..count).map(|k| self.add(p.lerp(q, f64::from(k) / f64::from(count)))).collect();
             inner.insert([a, b], added);
         }
@@ -345,6 +352,8 @@ impl Seams {
     }
 }
 
+/// Parts that an edge is cut into, at most.
+const MOST_PARTS: f64 = 1e5;
 /// Rounds of merging nodes across gaps, at most.
 const ROUNDS: usize = 6;
 /// Nodes of chords that are one are no farther apart than this share of an edge.

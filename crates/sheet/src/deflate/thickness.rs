@@ -8,6 +8,7 @@ use mesh_kernel::query::Adjacency;
 use rayon::prelude::*;
 
 use super::assemble::{Sheet, Source};
+use super::follow::between;
 use super::middle::{Middle, Middles};
 use super::segments::Segments;
 use super::solid::Solid;
@@ -24,7 +25,13 @@ pub(super) fn thicknesses(
 ) -> Vec<f64> {
     let mesh = TriMesh::new(sheet.positions.clone(), sheet.faces.clone());
     let of = |f: usize| match sheet.sources[f] {
-        Source::Facet(source) => beside_facet(solid, segments, walls, corners, source),
+        Source::Facet(source) => {
+            let [a, b, c] = mesh.corners(f as u32);
+            let normal = solid.normals[source as usize];
+            between(solid, segments, walls, (a + b + c) / 3.0, normal)
+                .map(|seen| seen.thickness)
+                .or_else(|| beside_facet(solid, segments, walls, corners, source))
+        }
         Source::Plane(k) => {
             let (plane, is_step) = sheet.planes[k as usize];
             if is_step {
