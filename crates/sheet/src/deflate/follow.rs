@@ -17,6 +17,8 @@ use super::walls::Walls;
 
 /// An edge is split if its middle is off by more than this share of the thickness.
 const OFF: f64 = 8e-3;
+/// A new node stands off by at most this share of the heights of the faces about it.
+const BEND: f64 = 0.2;
 /// Edges shorter than this share of the thickness are left as they are.
 const SHORTEST: f64 = 0.4;
 /// Rounds of splitting.
@@ -100,13 +102,14 @@ fn split_at(
     let [a, b] = adjacency.edges()[e as usize].map(|v| mesh.positions[v as usize]);
     let middle = (a + b) / 2.0;
     let (mut off, mut count) = (DVec3::ZERO, 0.0);
-    let mut worst = 0.0f64;
+    let (mut worst, mut lowest) = (0.0f64, f64::INFINITY);
     for h in adjacency.half_edges(e) {
         let f = h / 3;
         // Plane pieces end in straight lines.
         let Source::Facet(source) = sheet.sources[f as usize] else { return None };
         let normal = solid.normals[source as usize];
         let [p, q, r] = mesh.corners(f);
+        lowest = lowest.min((q - p).cross(r - p).length() / a.distance(b));
         let from = middle.lerp((p + q + r) / 3.0, INSET);
         let Some(seen) = between(solid, segments, walls, from, normal) else { continue };
         if a.distance(b) < SHORTEST * seen.thickness {
@@ -116,7 +119,9 @@ fn split_at(
         worst = worst.max(seen.off.abs() / seen.thickness);
         count += 1.0;
     }
-    (count > 0.0 && worst > OFF).then(|| middle + off / count)
+    // A node that leaves a low face would fold it.
+    let bend = off.length() / count / lowest.min(a.distance(b) / 2.0);
+    (count > 0.0 && worst > OFF && bend < BEND).then(|| middle + off / count)
 }
 
 /// A face with nodes on some of its sides, as triangles; quadrangles are cut along their shorter diagonal.

@@ -127,7 +127,12 @@ impl Middles {
         }
         solid.mesh.corners(f).map(|corner| {
             let p = corner.lerp(middle, INSET);
-            let opposite = walls.opposite(solid, segments, f, p).or_else(|| walls.opposite(solid, segments, f, middle))?;
+            // Behind a fillet the wall is thicker than it is.
+            let wall = |p: DVec3| {
+                let seen = walls.opposite(solid, segments, f, p);
+                seen.filter(|o| walls.is_wall[segments.of(o.face) as usize])
+            };
+            let opposite = wall(p).or_else(|| wall(middle))?;
             let partner = segments.of(opposite.face);
             if let Some((plane, number)) = self.between(group, partner) {
                 let thickness = opposite.distance;

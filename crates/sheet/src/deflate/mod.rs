@@ -145,31 +145,6 @@ pub fn deflate(
     let corners = middles.at_corners(&solid, &segments, &walls);
     let replacement = Replacement::new(&solid, &segments, &walls, &middles, &blends, &corners);
     let moved = Moved { positions: replacement.positions(), soft: replacement.beside_facets() };
-    //DEBUG
-    if std::env::var("DBG").is_ok() {
-        #[allow(clippy::print_stderr)]
-        for (g, group) in segments.groups.iter().enumerate() {
-            let partners: Vec<_> = walls.partners(g as u32).iter().map(|p| (p.partner, (p.area * 10.0).round() / 10.0, (p.thickness * 1e3).round() / 1e3)).collect();
-            eprintln!("group {g} faces {} area {:.3} plane {:?} wall {} kept {} blend {} at {:.1} partners {:?}", group.faces.len(), group.area,
-                group.plane.map(|p| p.normal.to_array().map(|x| (x * 1e3).round() / 1e3)), walls.is_wall[g], kept[g], blends.is_blend[g], solid.centroid(group.faces[0]), partners.iter().take(6).collect::<Vec<_>>());
-        }
-        eprintln!("max_thickness {}", walls.max_thickness);
-        if let Ok(g) = std::env::var("DBGG") {
-            let g: u32 = g.parse().unwrap_or(0);
-            let mut seen = std::collections::BTreeSet::new();
-            for &f in &segments.group(g).faces {
-                for h in 3 * f..3 * f + 3 {
-                    let o = segments.of(solid.across(h));
-                    let [a, _] = solid.adjacency.ends(h);
-                    if o != g && seen.insert(a) {
-                        let p = solid.mesh.positions[a as usize];
-                        eprintln!("node {a} with {o} from {p:.3} to {:.4} r {:.4} behind {:?} corner {:?}", moved.positions[a as usize], (moved.positions[a as usize] - glam::DVec3::new(105.0, 40.0, 0.0)).truncate().length(), blends.behind(a), corners[f as usize][h as usize % 3].map(|m| (m.thickness, m.exact, m.plane.offset)));
-                    }
-                }
-            }
-        }
-    }
-    //END
     begin(Step::Stitch)?;
     let mut sheet = assemble(&solid, &segments, &walls, &middles, &kept, &moved, options);
     follow(&mut sheet, &solid, &segments, &walls);
