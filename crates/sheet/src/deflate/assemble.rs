@@ -76,12 +76,14 @@ pub(super) struct Moved {
     pub(super) soft: Vec<bool>,
 }
 
-/// Makes the mid-surface. O(n log n).
+/// Makes the mid-surface. `gone`: groups that it is made without, as if walls went on below. O(n log n).
+#[allow(clippy::too_many_arguments, reason = "one call, all of them what was found before")]
 pub(super) fn assemble(
     solid: &Solid,
     segments: &Segments,
     walls: &Walls,
     middles: &Middles,
+    gone: &[bool],
     kept: &[bool],
     moved: &Moved,
     options: &DeflateOptions,
@@ -89,17 +91,17 @@ pub(super) fn assemble(
     let Moved { positions: moved, soft } = moved;
     let thickness = mean_thickness(walls);
     let near = Nearness { rounding: ROUNDING * solid.size, chords: CHORDS * thickness };
-    let plan = plan(solid, segments, walls, middles, kept, moved, options);
+    let plan = plan(solid, segments, walls, middles, gone, kept, moved, options);
     let merged = closed_edges(solid, segments, &plan, moved, CLOSED * thickness);
     let mut borders: Vec<([u32; 2], u32)> = Vec::new();
     for (k, piece) in (0..).zip(&plan.planes) {
         for (g, _) in &piece.groups {
-            borders.extend(border(solid, segments, *g).map(|e| (e, k)));
+            borders.extend(border(solid, segments, gone, *g).map(|e| (e, k)));
         }
     }
     let first_curved = plan.planes.len() as u32;
     for (k, g) in (first_curved..).zip(&plan.curved) {
-        borders.extend(border(solid, segments, *g).map(|e| (e, k)));
+        borders.extend(border(solid, segments, gone, *g).map(|e| (e, k)));
     }
     let mut seams = Seams::new(moved.clone(), merged, &borders, soft, near);
     let length_of = |k: u32| {
@@ -108,7 +110,7 @@ pub(super) fn assemble(
     };
     seams.refine(length_of);
     let mut sheet = Sheet { positions: seams.positions.clone(), ..Sheet::default() };
-    add_planes(&mut sheet, solid, segments, &plan, &seams, &borders, options, MARGIN * thickness);
+    add_planes(&mut sheet, solid, segments, gone, &plan, &seams, &borders, options, MARGIN * thickness);
     add_curved(&mut sheet, solid, segments, &plan, &seams);
     sheet.without_unused_nodes()
 }
@@ -118,18 +120,21 @@ fn mean_thickness(walls: &Walls) -> f64 {
     walls.pairs.iter().map(|p| p.area * p.thickness).sum::<f64>() / area.max(f64::MIN_POSITIVE)
 }
 
-/// The directed edges of a group to other groups.
-fn border(solid: &Solid, segments: &Segments, g: u32) -> impl Iterator<Item = [u32; 2]> {
+/// The directed edges of a group to other groups, but for those that are gone.
+fn border(solid: &Solid, segments: &Segments, gone: &[bool], g: u32) -> impl Iterator<Item = [u32; 2]> {
     let faces = &segments.group(g).faces;
     let sides = faces.iter().flat_map(|f| 3 * f..3 * f + 3);
-    sides.filter(move |h| segments.of(solid.across(*h)) != g).map(|h| solid.adjacency.ends(h))
+    let beyond = move |h: &u32| segments.of(solid.across(*h));
+    sides.filter(move |h| beyond(h) != g && !gone[beyond(h) as usize]).map(|h| solid.adjacency.ends(h))
 }
 
+#[allow(clippy::too_many_arguments, reason = "one call, all of them what was found before")]
 fn plan(
     solid: &Solid,
     segments: &Segments,
     walls: &Walls,
     middles: &Middles,
+    gone: &[bool],
     kept: &[bool],
     moved: &[DVec3],
     options: &DeflateOptions,
@@ -171,7 +176,7 @@ fn plan(
         }
     }
     if options.steps != super::Steps::Apart {
-        planes.extend(steps(solid, segments, walls, kept, moved));
+        planes.extend(steps(solid, segments, walls, gone, kept, moved));
     }
     Plan { planes, curved }
 }
@@ -191,12 +196,15 @@ fn steps(
     solid: &Solid,
     segments: &Segments,
     walls: &Walls,
+    gone: &[bool],
     kept: &[bool],
     moved: &[DVec3],
 ) -> Vec<PlanePiece> {
     let mut found = Vec::new();
     for (g, group) in (0u32..).zip(&segments.groups) {
-        let Some(plane) = group.plane.filter(|_| !walls.is_wall[g as usize]) else { continue };
+        let Some(plane) = group.plane.filter(|_| !walls.is_wall[g as usize] && !gone[g as usize]) else {
+            continue;
+        };
         let mut beside: BTreeSet<u32> = BTreeSet::new();
         for &f in &group.faces {
             let others = (3 * f..3 * f + 3).map(|h| segments.of(solid.across(h)));
@@ -208,7 +216,7 @@ fn steps(
         // Twice the area that is left, and its outline.
         let (mut area, mut length, mut longest) = (DVec3::ZERO, 0.0, 0.0f64);
         let origin = moved[solid.mesh.faces[group.faces[0] as usize][0] as usize];
-        for [a, b] in border(solid, segments, g) {
+        for [a, b] in border(solid, segments, gone, g) {
             let (p, q) = (moved[a as usize] - origin, moved[b as usize] - origin);
             area += p.cross(q);
             length += p.distance(q);
@@ -218,7 +226,7 @@ fn steps(
         let width = 2.0 * area / length.max(f64::MIN_POSITIVE);
         let thin = beside.iter().flat_map(|b| walls.partners(*b)).map(|p| p.thickness).fold(f64::MAX, f64::min);
         if width > STEP * thin && width < walls.max_thickness && width < 0.5 * longest {
-            let origin = moved_plane(solid, segments, g, moved, plane);
+            let origin = moved_plane(solid, segments, gone, g, moved, plane);
             found.push(PlanePiece {
                 plane: origin,
                 groups: vec![(g, true)],
@@ -231,9 +239,16 @@ fn steps(
 }
 
 /// The plane of a step stays where it was: its nodes move within it.
-fn moved_plane(solid: &Solid, segments: &Segments, g: u32, moved: &[DVec3], plane: Plane) -> Plane {
+fn moved_plane(
+    solid: &Solid,
+    segments: &Segments,
+    gone: &[bool],
+    g: u32,
+    moved: &[DVec3],
+    plane: Plane,
+) -> Plane {
     let nodes: Vec<f64> =
-        border(solid, segments, g).map(|[a, _]| plane.normal.dot(moved[a as usize])).collect();
+        border(solid, segments, gone, g).map(|[a, _]| plane.normal.dot(moved[a as usize])).collect();
     Plane { offset: nodes.iter().sum::<f64>() / nodes.len().max(1) as f64, ..plane }
 }
 
@@ -260,6 +275,7 @@ fn add_planes(
     sheet: &mut Sheet,
     solid: &Solid,
     segments: &Segments,
+    gone: &[bool],
     plan: &Plan,
     seams: &Seams,
     borders: &[([u32; 2], u32)],
@@ -280,7 +296,7 @@ fn add_planes(
         let mut outline = Outline { plane: piece.plane, edges: vec![], lines: vec![], inside: vec![] };
         let mut on_border: BTreeSet<u32> = BTreeSet::new();
         for (g, same) in &piece.groups {
-            for [a, b] in border(solid, segments, *g) {
+            for [a, b] in border(solid, segments, gone, *g) {
                 let path = if *same { seams.path(a, b) } else { seams.path(b, a) };
                 on_border.extend(&path);
                 outline.edges.extend(path.windows(2).map(|w| [w[0], w[1]]));

@@ -3,6 +3,7 @@
 mod assemble;
 mod blends;
 mod error;
+mod features;
 mod fill;
 mod follow;
 mod middle;
@@ -28,6 +29,7 @@ use mesh_kernel::query::Crossings;
 
 use assemble::{Moved, assemble};
 use blends::Blends;
+use features::Features;
 use follow::follow;
 use middle::Middles;
 use patches::patched;
@@ -141,12 +143,14 @@ pub fn deflate(
     }
     begin(Step::Replace)?;
     let middles = Middles::new(&solid, &segments, &walls);
-    let kept = kept_groups(&solid, &segments, &walls, &blends, &middles.of_group);
+    let features = Features::new(&solid, &segments, &walls, &blends, options);
+    let mut kept = kept_groups(&solid, &segments, &walls, &blends, &middles.of_group);
+    kept.iter_mut().zip(&features.gone).for_each(|(kept, gone)| *kept &= !gone);
     let corners = middles.at_corners(&solid, &segments, &walls);
     let replacement = Replacement::new(&solid, &segments, &walls, &middles, &blends, &corners);
     let moved = Moved { positions: replacement.positions(), soft: replacement.beside_facets() };
     begin(Step::Stitch)?;
-    let mut sheet = assemble(&solid, &segments, &walls, &middles, &kept, &moved, options);
+    let mut sheet = assemble(&solid, &segments, &walls, &middles, &features.gone, &kept, &moved, options);
     follow(&mut sheet, &solid, &segments, &walls);
     let thickness = thicknesses(&sheet, &solid, &segments, &walls, &middles, &corners);
     let patched = patched(&sheet, &segments);
@@ -157,7 +161,7 @@ pub fn deflate(
     let areas: Vec<f64> = (0..mesh.faces.len() as u32).map(|f| mesh.area_normal(f).length() / 2.0).collect();
     let area: f64 = areas.iter().sum();
     let report = DeflateReport {
-        features: Vec::new(),
+        features: features.list,
         pairs: walls.pairs.iter().filter(|p| p.group < p.partner).count(),
         unpaired,
         patches: mesh.groups.len(),
