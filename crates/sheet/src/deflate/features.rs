@@ -13,6 +13,11 @@ use super::segments::Segments;
 use super::solid::Solid;
 use super::walls::Walls;
 
+/// What stands on a wall is small up to this many thicknesses.
+const SMALL: f64 = 10.0;
+/// Faces of a hole look at its axis: the mean share of the way that they do.
+const HOLLOW: f64 = 0.3;
+
 /// What was found, and which groups go with what is removed.
 #[derive(Debug)]
 pub(super) struct Features {
@@ -29,6 +34,15 @@ struct Set {
 }
 
 impl Features {
+    /// Takes back what was to be removed: the mid-surface would not be sound.
+    pub(super) fn undo(&mut self) {
+        for feature in self.list.iter_mut().filter(|f| f.removed && matches!(f.kind, "hole" | "boss" | "pocket")) {
+            feature.removed = false;
+            feature.kept_because = Some("kept: without it the mid-surface would cross itself");
+        }
+        self.gone.fill(false);
+    }
+
     /// Finds the features and decides which go. O(n log n), and walls times groups about them.
     pub(super) fn new(
         solid: &Solid,
@@ -138,7 +152,8 @@ fn hole(solid: &Solid, segments: &Segments, walls: &Walls, set: &Set) -> Option<
     }
     // A hole goes through: its wall is about as high as the walls that it joins are apart.
     let through = area(segments, &set.groups) > 0.5 * pair.thickness * 4.0 * reach;
-    (inward > 0.0 && through).then(|| Feature {
+    let hollow = inward > HOLLOW * reach * area(segments, &set.groups);
+    (hollow && through).then(|| Feature {
         kind: "hole",
         at: centre,
         size: 2.0 * reach,
@@ -181,10 +196,15 @@ fn standing_on(
             reach = reach.max((p - plane.normal * plane.normal.dot(p)).length());
         }
         let kind = if high > -low { "boss" } else { "pocket" };
+        let size = (2.0 * reach).max(high - low);
+        // Ribs and the like are no small features.
+        if size > SMALL * walls.max_thickness {
+            continue;
+        }
         let feature = Feature {
             kind,
             at: centre,
-            size: (2.0 * reach).max(high - low),
+            size,
             faces: faces.len(),
             removed: false,
             kept_because: None,

@@ -13,6 +13,8 @@ use super::walls::Walls;
 const COUNTED: f64 = 0.02;
 /// A wall has an exact mid-plane if plane partners cover this share of what has a partner.
 const MOSTLY: f64 = 0.8;
+/// Cosine of the angle between middles that can be aligned.
+const ALIGNED: f64 = 0.999;
 /// Looks through the material at a corner begin this far from it towards the middle of the face.
 const INSET: f64 = 0.1;
 
@@ -78,6 +80,37 @@ impl Middles {
             }
         }
         Self { planes, plane_of, between, of_group, mid_planes }
+    }
+
+    /// Where a step in thickness stands between two kept walls, moves the middle of the thinner one to that of the thicker.
+    pub(super) fn align_steps(&mut self, solid: &Solid, segments: &Segments, walls: &Walls, kept: &[bool]) {
+        for (g, group) in (0u32..).zip(&segments.groups) {
+            if walls.is_wall[g as usize] || group.plane.is_none() {
+                continue;
+            }
+            let sides = group.faces.iter().flat_map(|f| 3 * f..3 * f + 3);
+            let mut beside: Vec<u32> = sides.map(|h| segments.of(solid.across(h))).collect();
+            beside.retain(|o| kept[*o as usize] && self.only(*o).is_some());
+            beside.sort_unstable();
+            beside.dedup();
+            let thick = |g: u32| walls.partners(g).iter().map(|p| p.thickness).fold(0.0, f64::max);
+            let Some(&thickest) = beside.iter().max_by(|a, b| thick(**a).total_cmp(&thick(**b))) else { continue };
+            for thinner in beside.into_iter().filter(|b| *b != thickest) {
+                self.align(walls, thinner, thickest);
+            }
+        }
+    }
+
+    fn align(&mut self, walls: &Walls, thinner: u32, thicker: u32) {
+        let [Some(from), Some(to)] = [thinner, thicker].map(|g| self.only(g)) else { return };
+        let pair = walls.partners(thicker).iter().find_map(|p| self.between(thicker, p.partner));
+        let Some((_, number)) = pair.filter(|_| from.normal.dot(to.normal) > ALIGNED) else { return };
+        for entry in self.between.iter_mut().filter(|b| b.0.contains(&thinner)) {
+            let faces = entry.1.normal.dot(to.normal) > 0.0;
+            entry.1 = if faces { to } else { to.flipped() };
+            entry.2 = number;
+        }
+        self.of_group[thinner as usize] = vec![to];
     }
 
     /// The mid-plane between two groups, facing as the first, and its number.

@@ -142,18 +142,33 @@ pub fn deflate(
         return Err(DeflateError::Bulky { paired, max_thickness, unpaired });
     }
     begin(Step::Replace)?;
-    let middles = Middles::new(&solid, &segments, &walls);
-    let features = Features::new(&solid, &segments, &walls, &blends, options);
-    let mut kept = kept_groups(&solid, &segments, &walls, &blends, &middles.of_group);
-    kept.iter_mut().zip(&features.gone).for_each(|(kept, gone)| *kept &= !gone);
+    let mut features = Features::new(&solid, &segments, &walls, &blends, options);
+    let mut middles = Middles::new(&solid, &segments, &walls);
+    let kept = kept_groups(&solid, &segments, &walls, &blends, &middles.of_group);
+    if options.steps == Steps::Aligned {
+        middles.align_steps(&solid, &segments, &walls, &kept);
+    }
     let corners = middles.at_corners(&solid, &segments, &walls);
     let replacement = Replacement::new(&solid, &segments, &walls, &middles, &blends, &corners);
     let moved = Moved { positions: replacement.positions(), soft: replacement.beside_facets() };
     begin(Step::Stitch)?;
-    let mut sheet = assemble(&solid, &segments, &walls, &middles, &features.gone, &kept, &moved, options);
-    follow(&mut sheet, &solid, &segments, &walls);
-    let thickness = thicknesses(&sheet, &solid, &segments, &walls, &middles, &corners);
-    let patched = patched(&sheet, &segments);
+    let stitch = |gone: &[bool]| {
+        let kept: Vec<bool> = kept.iter().zip(gone).map(|(kept, gone)| *kept && !gone).collect();
+        let mut sheet = assemble(&solid, &segments, &walls, &middles, gone, &kept, &moved, options);
+        follow(&mut sheet, &solid, &segments, &walls);
+        let thickness = thicknesses(&sheet, &solid, &segments, &walls, &middles, &corners);
+        let patched = patched(&sheet, &segments);
+        let crossing = Crossings::new(&patched.mesh).self_crossing().len();
+        (sheet, thickness, patched, crossing)
+    };
+    let (mut sheet, mut thickness, mut patched, mut crossing) = stitch(&features.gone);
+    if features.gone.contains(&true) && crossing + sheet.lost > 0 {
+        let with_all = stitch(&vec![false; features.gone.len()]);
+        if with_all.3 + with_all.0.lost < crossing + sheet.lost {
+            (sheet, thickness, patched, crossing) = with_all;
+            features.undo();
+        }
+    }
     begin(Step::Measure)?;
     let thickness: Vec<f64> = patched.order.iter().map(|f| thickness[*f as usize]).collect();
     let mesh = patched.mesh;
@@ -177,7 +192,7 @@ pub fn deflate(
         max_thickness: walls.max_thickness,
         paired_share: walls.paired_share,
         steps: sheet.planes.iter().filter(|p| p.1).count(),
-        self_intersections: Crossings::new(&mesh).self_crossing().len(),
+        self_intersections: crossing,
         lost_edges: sheet.lost,
         solid_volume: solid.volume,
     };

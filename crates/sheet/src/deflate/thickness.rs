@@ -74,7 +74,8 @@ fn beside_facet(
     (!seen.is_empty()).then(|| seen.iter().sum::<f64>() / seen.len() as f64)
 }
 
-/// How far it is from a point of a mid-plane through the material to both sides, if both are walls of one pair.
+/// How far it is from a point of a mid-plane through the material to both sides, if both are walls of one pair; where the plane
+/// was aligned to another wall's, how thick the wall beside it is.
 fn between_planes(
     solid: &Solid,
     segments: &Segments,
@@ -83,10 +84,20 @@ fn between_planes(
     p: DVec3,
     normal: DVec3,
 ) -> Option<f64> {
-    let (up, down) = (walls.first(solid, p, normal)?, walls.first(solid, p, -normal)?);
-    let [g, h] = [up.face, down.face].map(|f| segments.of(f));
-    middles.between(g, h).or_else(|| middles.between(h, g))?;
-    Some(up.distance + down.distance)
+    let seen = [normal, -normal].map(|d| (d, walls.first(solid, p, d)));
+    if let [(_, Some(up)), (_, Some(down))] = seen {
+        let [g, h] = [up.face, down.face].map(|f| segments.of(f));
+        if middles.between(g, h).or_else(|| middles.between(h, g)).is_some() {
+            return Some(up.distance + down.distance);
+        }
+    }
+    let beside = seen.into_iter().filter_map(|(d, hit)| {
+        let hit = hit?;
+        let back = walls.opposite(solid, segments, hit.face, p + d * hit.distance)?;
+        let [g, h] = [hit.face, back.face].map(|f| segments.of(f));
+        middles.between(g, h).or_else(|| middles.between(h, g)).map(|_| back.distance)
+    });
+    beside.min_by(f64::total_cmp)
 }
 
 /// Faces that do not know take what their neighbours in the same plane have, the nearest first.
