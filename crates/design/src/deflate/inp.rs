@@ -42,12 +42,7 @@ pub struct InpOptions {
 impl Default for InpOptions {
     /// Steel.
     fn default() -> Self {
-        Self {
-            element: Element::default(),
-            sections: Sections::default(),
-            young: 210_000.0,
-            poisson: 0.3,
-        }
+        Self { element: Element::default(), sections: Sections::default(), young: 210_000.0, poisson: 0.3 }
     }
 }
 

@@ -36,7 +36,7 @@ impl RayCaster {
     pub fn new(mesh: &TriMesh) -> Self {
         let bvh = Bvh::new(mesh);
         let corners = |f: &u32| if *f == VACANT { [DVec3::ZERO; 3] } else { mesh.corners(*f) };
-        let triangles = bvh.order.iter().map(|f| corners(f)).map(|[a, b, c]| [a, b - a, c - a]).collect();
+        let triangles = bvh.order.iter().map(corners).map(|[a, b, c]| [a, b - a, c - a]).collect();
         Self { bvh, triangles }
     }
 
@@ -103,9 +103,11 @@ impl RayCaster {
                 Ok(leaf) => {
                     for slot in leaf {
                         let face = self.bvh.order[slot];
-                        let Some(distance) = meets(&self.triangles[slot], origin, direction) else { continue };
-                        let nearer = distance < limit
-                            || distance == limit && best.is_none_or(|b| face < b.face);
+                        let Some(distance) = meets(&self.triangles[slot], origin, direction) else {
+                            continue;
+                        };
+                        let nearer =
+                            distance < limit || distance == limit && best.is_none_or(|b| face < b.face);
                         if distance > from && nearer {
                             limit = distance;
                             best = Some(RayHit { face, distance });

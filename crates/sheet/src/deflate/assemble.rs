@@ -224,7 +224,8 @@ fn steps(
         }
         let area = area.dot(plane.normal).abs() / 2.0;
         let width = 2.0 * area / length.max(f64::MIN_POSITIVE);
-        let thin = beside.iter().flat_map(|b| walls.partners(*b)).map(|p| p.thickness).fold(f64::MAX, f64::min);
+        let thin =
+            beside.iter().flat_map(|b| walls.partners(*b)).map(|p| p.thickness).fold(f64::MAX, f64::min);
         if width > STEP * thin && width < walls.max_thickness && width < 0.5 * longest {
             let origin = moved_plane(solid, segments, gone, g, moved, plane);
             found.push(PlanePiece {

@@ -96,20 +96,23 @@ impl Blends {
         for (&group, nodes) in &borders {
             for (node, (_, at)) in nearest(solid, &links, nodes) {
                 // Along the edges tells which one; how far it is, the straight line.
-                let distance = solid.mesh.positions[node as usize].distance(solid.mesh.positions[at as usize]);
+                let distance =
+                    solid.mesh.positions[node as usize].distance(solid.mesh.positions[at as usize]);
                 found.entry(node).or_default().push((distance, Belongs { group, at }));
             }
         }
         for (node, mut reached) in found {
             reached.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let own: Vec<Belongs> = reached.iter().filter(|r| r.0 == 0.0).map(|r| r.1).collect();
+            let here = reached.iter().filter(|r| r.0 == 0.0).map(|r| r.1);
+            let own: Vec<Belongs> = here.filter(|b| walls.is_wall[b.group as usize]).collect();
             if own.is_empty() {
                 continue;
             }
             let facing = |b: &Belongs| group_normal_at(solid, segments, b);
             let mine: Vec<_> = own.iter().map(facing).collect();
             let meets = |b: &Belongs| {
-                let apart = own.iter().all(|o| o.group != b.group && !self.touch(segments, solid, o.group, b.group));
+                let apart =
+                    own.iter().all(|o| o.group != b.group && !self.touch(segments, solid, o.group, b.group));
                 apart && mine.iter().all(|n| n.dot(facing(b)).abs() < PARALLEL)
             };
             let others: Vec<&(f64, Belongs)> = reached.iter().filter(|r| meets(&r.1)).collect();
@@ -136,8 +139,11 @@ impl Blends {
 
     /// Whether two groups have an edge in common.
     fn touch(&self, segments: &Segments, solid: &Solid, g: u32, other: u32) -> bool {
-        let [small, large] =
-            if segments.group(g).faces.len() < segments.group(other).faces.len() { [g, other] } else { [other, g] };
+        let [small, large] = if segments.group(g).faces.len() < segments.group(other).faces.len() {
+            [g, other]
+        } else {
+            [other, g]
+        };
         let sides = segments.group(small).faces.iter().flat_map(|f| 3 * f..3 * f + 3);
         sides.into_iter().any(|h| segments.of(solid.across(h)) == large)
     }

@@ -15,6 +15,8 @@ use super::walls::Walls;
 
 /// What stands on a wall is small up to this many thicknesses.
 const SMALL: f64 = 10.0;
+/// Folds within blends and at their borders are less than this, in radians.
+const OBLIQUE: f64 = 70.0 / 180.0 * std::f64::consts::PI;
 /// Faces of a hole look at its axis: the mean share of the way that they do.
 const HOLLOW: f64 = 0.3;
 
@@ -36,7 +38,9 @@ struct Set {
 impl Features {
     /// Takes back what was to be removed: the mid-surface would not be sound.
     pub(super) fn undo(&mut self) {
-        for feature in self.list.iter_mut().filter(|f| f.removed && matches!(f.kind, "hole" | "boss" | "pocket")) {
+        for feature in
+            self.list.iter_mut().filter(|f| f.removed && matches!(f.kind, "hole" | "boss" | "pocket"))
+        {
             feature.removed = false;
             feature.kept_because = Some("kept: without it the mid-surface would cross itself");
         }
@@ -90,19 +94,14 @@ impl Features {
 }
 
 /// Fillets, rounds and chamfers: strips that walls run into and that no mid-surface can hold.
-fn blend(
-    solid: &Solid,
-    segments: &Segments,
-    walls: &Walls,
-    blends: &Blends,
-    set: &Set,
-) -> Option<Feature> {
+fn blend(solid: &Solid, segments: &Segments, walls: &Walls, blends: &Blends, set: &Set) -> Option<Feature> {
     let faces: Vec<u32> = set.groups.iter().flat_map(|g| segments.group(*g).faces.iter().copied()).collect();
-    let blended = faces.iter().flat_map(|f| solid.mesh.faces[*f as usize]).any(|v| !blends.behind(v).is_empty());
+    let blended =
+        faces.iter().flat_map(|f| solid.mesh.faces[*f as usize]).any(|v| !blends.behind(v).is_empty());
     if !blended || !set.about.iter().any(|g| walls.is_wall[*g as usize]) {
         return None;
     }
-    let (mut outline, mut concave, mut inner) = (0.0, 0.0, 0.0);
+    let (mut outline, mut concave, mut turn) = (0.0, 0.0, 0.0);
     for h in faces.iter().flat_map(|f| 3 * f..3 * f + 3) {
         let other = segments.of(solid.across(h));
         let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
@@ -110,20 +109,23 @@ fn blend(
         if !set.groups.contains(&other) {
             outline += length;
         }
-        // What bends most of all tells which way it bends.
-        let bend = length * solid.fold_cosine(h).clamp(-1.0, 1.0).acos();
-        inner += bend;
-        concave += if solid.is_convex(h) { 0.0 } else { bend };
+        // Folds along the strip add up to its turn; edges within it are met from both sides.
+        let cosine = solid.fold_cosine(h).clamp(-1.0, 1.0);
+        if cosine > OBLIQUE.cos() {
+            let bend = length * cosine.acos() / if set.groups.contains(&other) { 2.0 } else { 1.0 };
+            turn += bend;
+            concave += if solid.is_convex(h) { 0.0 } else { bend };
+        }
     }
     let width = 2.0 * area(segments, &set.groups) / f64::max(outline, f64::MIN_POSITIVE);
     let plane = set.groups.iter().all(|g| segments.group(*g).plane.is_some());
-    let kind = match (plane, concave > 0.5 * inner) {
+    let kind = match (plane, concave > 0.5 * turn) {
         (true, _) => "chamfer",
         (false, true) => "fillet",
         (false, false) => "round",
     };
-    // The strip of a fillet in a right angle is a quarter of its circle.
-    let size = if plane { width } else { width / std::f64::consts::FRAC_PI_2 };
+    // A strip turns by its width over its radius.
+    let size = if plane { width } else { area(segments, &set.groups) / f64::max(turn, f64::MIN_POSITIVE) };
     Some(Feature {
         kind,
         at: middle(solid, &faces),
@@ -201,14 +203,8 @@ fn standing_on(
         if size > SMALL * walls.max_thickness {
             continue;
         }
-        let feature = Feature {
-            kind,
-            at: centre,
-            size,
-            faces: faces.len(),
-            removed: false,
-            kept_because: None,
-        };
+        let feature =
+            Feature { kind, at: centre, size, faces: faces.len(), removed: false, kept_because: None };
         found.push((feature, set.groups));
     }
     found

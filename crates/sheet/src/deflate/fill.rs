@@ -6,7 +6,9 @@
 use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
-use spade::{AngleLimit, ConstrainedDelaunayTriangulation, HasPosition, Point2, RefinementParameters, Triangulation};
+use spade::{
+    AngleLimit, ConstrainedDelaunayTriangulation, HasPosition, Point2, RefinementParameters, Triangulation,
+};
 
 use super::plane::Plane;
 
@@ -96,7 +98,8 @@ pub(super) fn fill(outline: &Outline, positions: &[DVec3], edge_length: Option<f
             continue;
         }
         for [from, to] in parts {
-            *winding.entry([from.min(to), from.max(to)]).or_default() += if from < to { turns } else { -turns };
+            *winding.entry([from.min(to), from.max(to)]).or_default() +=
+                if from < to { turns } else { -turns };
         }
     }
     if let Some(length) = edge_length {

@@ -47,11 +47,13 @@ pub(super) fn between(
 ) -> Option<Between> {
     let (up, down) = (walls.first(solid, p, normal)?, walls.first(solid, p, -normal)?);
     let sound = [(up.face, normal), (down.face, -normal)].into_iter().all(|(f, d)| {
-        walls.is_wall[segments.of(f) as usize] && solid.normals[f as usize].dot(d) > super::walls::FACET_LEAN.cos()
+        walls.is_wall[segments.of(f) as usize]
+            && solid.normals[f as usize].dot(d) > super::walls::FACET_LEAN.cos()
     });
     let thickness = up.distance + down.distance;
     let off = (up.distance - down.distance) / 2.0;
-    (sound && thickness <= walls.max_thickness && off.abs() < FAR * thickness).then_some(Between { off, thickness })
+    (sound && thickness <= walls.max_thickness && off.abs() < FAR * thickness)
+        .then_some(Between { off, thickness })
 }
 
 /// Refines the curved pieces of a sheet. O(n log n) a round.

@@ -94,7 +94,9 @@ impl Middles {
             beside.sort_unstable();
             beside.dedup();
             let thick = |g: u32| walls.partners(g).iter().map(|p| p.thickness).fold(0.0, f64::max);
-            let Some(&thickest) = beside.iter().max_by(|a, b| thick(**a).total_cmp(&thick(**b))) else { continue };
+            let Some(&thickest) = beside.iter().max_by(|a, b| thick(**a).total_cmp(&thick(**b))) else {
+                continue;
+            };
             for thinner in beside.into_iter().filter(|b| *b != thickest) {
                 self.align(walls, thinner, thickest);
             }
@@ -212,10 +214,11 @@ fn fill_from_neighbours(solid: &Solid, segments: &Segments, g: u32, seen: &mut [
     let group = segments.group(g);
     let known = |seen: &[[Option<Middle>; 3]], f: u32| {
         let own: Vec<Middle> = seen[f as usize].iter().flatten().copied().collect();
-        (!own.is_empty()).then(|| (own.iter().map(|m| m.thickness).sum::<f64>() / own.len() as f64, own[0].exact, own[0].plane))
+        (!own.is_empty()).then(|| {
+            (own.iter().map(|m| m.thickness).sum::<f64>() / own.len() as f64, own[0].exact, own[0].plane)
+        })
     };
-    let mut front: Vec<u32> =
-        group.faces.iter().copied().filter(|f| known(seen, *f).is_some()).collect();
+    let mut front: Vec<u32> = group.faces.iter().copied().filter(|f| known(seen, *f).is_some()).collect();
     let mut at = 0;
     for &f in &front {
         complete(solid, f, known(seen, f), seen);
@@ -235,7 +238,12 @@ fn fill_from_neighbours(solid: &Solid, segments: &Segments, g: u32, seen: &mut [
 }
 
 /// Gives the corners of a face that know nothing a thickness.
-fn complete(solid: &Solid, f: u32, from: Option<(f64, Option<u32>, Plane)>, seen: &mut [[Option<Middle>; 3]]) {
+fn complete(
+    solid: &Solid,
+    f: u32,
+    from: Option<(f64, Option<u32>, Plane)>,
+    seen: &mut [[Option<Middle>; 3]],
+) {
     let Some((thickness, exact, plane)) = from else { return };
     let normal = solid.normals[f as usize];
     for (m, corner) in seen[f as usize].iter_mut().zip(solid.mesh.corners(f)) {

@@ -136,8 +136,8 @@ pub fn deflate(
         walls = Walls::new(&solid, &segments, options);
     }
     let blends = Blends::new(&solid, &segments, &walls);
-    let unpaired = unpaired(&solid, &segments, &walls);
     if walls.paired_share < THIN {
+        let unpaired = unpaired(&solid, &segments, &walls, 0.0);
         let (paired, max_thickness) = (walls.paired_share, walls.max_thickness);
         return Err(DeflateError::Bulky { paired, max_thickness, unpaired });
     }
@@ -169,6 +169,7 @@ pub fn deflate(
             features.undo();
         }
     }
+    let unpaired = unpaired(&solid, &segments, &walls, END_WIDTH);
     begin(Step::Measure)?;
     let thickness: Vec<f64> = patched.order.iter().map(|f| thickness[*f as usize]).collect();
     let mesh = patched.mesh;
@@ -202,7 +203,8 @@ pub fn deflate(
 /// A face no wider than this many thicknesses is the end of a wall, or a blend.
 const END_WIDTH: f64 = 1.5;
 
-fn unpaired(solid: &Solid, segments: &Segments, walls: &Walls) -> Vec<UnpairedFace> {
+/// Groups that are no walls and wider than some thicknesses, the largest first.
+fn unpaired(solid: &Solid, segments: &Segments, walls: &Walls, wider: f64) -> Vec<UnpairedFace> {
     let mut found = Vec::new();
     for (group, is_wall) in segments.groups.iter().zip(&walls.is_wall) {
         if *is_wall {
@@ -218,12 +220,13 @@ fn unpaired(solid: &Solid, segments: &Segments, walls: &Walls) -> Vec<UnpairedFa
                 a.distance(b)
             })
             .sum();
-        if 2.0 * group.area < END_WIDTH * walls.max_thickness * outline {
+        if 2.0 * group.area < wider * walls.max_thickness * outline {
             continue;
         }
-        let largest = group.faces.iter().max_by(|f, g| {
-            solid.areas[**f as usize].total_cmp(&solid.areas[**g as usize]).then(g.cmp(f))
-        });
+        let largest = group
+            .faces
+            .iter()
+            .max_by(|f, g| solid.areas[**f as usize].total_cmp(&solid.areas[**g as usize]).then(g.cmp(f)));
         let Some(&largest) = largest else { continue };
         let kind = if group.plane.is_some() { "plane" } else { "curved" };
         found.push(UnpairedFace { at: solid.centroid(largest), area: group.area, kind });

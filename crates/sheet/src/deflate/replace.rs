@@ -106,8 +106,7 @@ impl<'a> Replacement<'a> {
     /// Where all nodes move to. O(n).
     pub(super) fn positions(&self) -> Vec<DVec3> {
         let nodes = self.solid.mesh.positions.len() as u32;
-        let mut moved: Vec<DVec3> =
-            (0..nodes).into_par_iter().map(|v| self.place(v, DVec3::ZERO)).collect();
+        let mut moved: Vec<DVec3> = (0..nodes).into_par_iter().map(|v| self.place(v, DVec3::ZERO)).collect();
         // Along a chain between two corners nodes go with its ends, or those near a corner would be passed by it.
         for chain in self.chains() {
             let at = |v: u32| self.solid.mesh.positions[v as usize];
@@ -187,7 +186,11 @@ impl<'a> Replacement<'a> {
         let planes = independent(&wanted);
         let start = on_planes(p + along, &planes);
         wanted.facets.append(&mut wanted.end_facets);
-        if wanted.facets.is_empty() { start } else { beside_facets(start, &planes, &wanted.facets, wanted.thickness) }
+        if wanted.facets.is_empty() {
+            start
+        } else {
+            beside_facets(start, &planes, &wanted.facets, wanted.thickness)
+        }
     }
 
     fn wanted(&self, v: u32) -> Wanted {

@@ -272,7 +272,8 @@ impl Seams {
         let open = self.open_nodes(&borders);
         let edges: Vec<[u32; 2]> = borders.iter().map(|e| e.0).collect();
         let mut order: Vec<usize> = (0..edges.len()).collect();
-        let low = |e: usize| edges[e].map(|v| self.positions[v as usize].x).into_iter().fold(f64::MAX, f64::min);
+        let low =
+            |e: usize| edges[e].map(|v| self.positions[v as usize].x).into_iter().fold(f64::MAX, f64::min);
         let lows: Vec<f64> = (0..edges.len()).map(low).collect();
         order.sort_by(|a, b| lows[*a].total_cmp(&lows[*b]).then(a.cmp(b)));
         let mut inner: Vec<Vec<(f64, u32)>> = vec![Vec::new(); edges.len()];

@@ -204,9 +204,8 @@ impl Regions {
     fn planes(&self, solid: &Solid) -> Vec<bool> {
         let widths: Vec<f64> = self.faces.iter().map(|faces| width(solid, faces)).collect();
         let whole_stars = self.regions_with_whole_stars(solid);
-        let mut is_plane: Vec<bool> = (0..self.faces.len())
-            .map(|r| self.looks_plane(r as u32, &widths, whole_stars[r]))
-            .collect();
+        let mut is_plane: Vec<bool> =
+            (0..self.faces.len()).map(|r| self.looks_plane(r as u32, &widths, whole_stars[r])).collect();
         self.settle_bends(&mut is_plane);
         is_plane
     }

@@ -86,8 +86,7 @@ impl Walls {
         let looks: Vec<Vec<Look>> =
             (0..solid.len()).into_par_iter().map(|f| walls.looks(solid, segments, f, cell)).collect();
         let mut looks: Vec<Look> = looks.into_iter().flatten().collect();
-        walls.max_thickness =
-            options.max_thickness.unwrap_or_else(|| told_thickness(&looks, total));
+        walls.max_thickness = options.max_thickness.unwrap_or_else(|| told_thickness(&looks, total));
         for look in &mut looks {
             look.seen = look.seen.filter(|(_, s)| *s <= walls.max_thickness);
         }
@@ -156,7 +155,9 @@ impl Walls {
                 if !curved(f) {
                     return false;
                 }
-                let Some(opposite) = self.opposite(solid, segments, f, solid.centroid(f)) else { return true };
+                let Some(opposite) = self.opposite(solid, segments, f, solid.centroid(f)) else {
+                    return true;
+                };
                 let lean = solid.normals[f as usize].dot(-solid.normals[opposite.face as usize]);
                 let allowed = fold(f).max(fold(opposite.face)) + FLARE;
                 lean < allowed.cos()
