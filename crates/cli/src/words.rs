@@ -337,7 +337,7 @@ pub(crate) struct Thicken {
     /// A JSON list of thicknesses in millimetres, one a triangle or one a node of the file: [2, 2.5, …].
     #[arg(long, value_name = "FILE.json", conflicts_with = "thickness")]
     pub(crate) thickness_file: Option<PathBuf>,
-    /// Farthest that the chords of an arc may be from it, in millimetres. Default: 2 % of its radius.
+    /// Farthest that the chords of an arc may be from it, in millimetres. Default: 3.5 % of its radius.
     #[arg(long, value_name = "MM", value_parser = positive, allow_hyphen_values = true)]
     pub(crate) chord: Option<f64>,
     /// A mitre that would stick out more than this many times the wall's offset becomes an arc.

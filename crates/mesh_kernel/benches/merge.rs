@@ -52,7 +52,18 @@ fn unions(c: &mut Criterion) {
             });
         });
         group.finish();
+        let ours = boolean(&[&a, &b], Boolean::Union, &MergeOptions::default()).expect("tori are closed");
+        let theirs = peers.each_ref().map(|(p, f)| Manifold::new(p, f).expect("a torus is manifold"));
+        let theirs: Manifold = compute_boolean(&theirs[0], &theirs[1], OpType::Add).expect("a union");
+        let difference = volume(&theirs) / ours.volume() - 1.0;
+        assert!(difference.abs() < 1e-11, "{name}: volumes differ by {difference:e}");
     }
+}
+
+/// Volume of boolmesh's own mesh, whose half-edges come in threes.
+fn volume(mesh: &Manifold) -> f64 {
+    let at = |h: usize| DVec3::from_array(mesh.ps[mesh.hs[h].tail].to_array());
+    (0..mesh.nf).map(|f| at(3 * f).cross(at(3 * f + 1)).dot(at(3 * f + 2)) / 6.0).sum()
 }
 
 criterion_group!(benches, unions);

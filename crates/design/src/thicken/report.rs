@@ -32,6 +32,8 @@ pub struct ThickenFileReport {
     pub holes_filled: usize,
     /// Edges and nodes where parts only touched and were joined by a bead.
     pub beads: usize,
+    /// Voids that were filled: nearer to the sheet than the depth.
+    pub voids_filled: usize,
     /// Patches that were turned so that the sheet has one front.
     pub turned: Vec<String>,
     /// The whole command.
@@ -128,6 +130,7 @@ impl ThickenFileReport {
             purged: report.purged,
             holes_filled: report.holes_filled,
             beads: report.beads,
+            voids_filled: report.voids_filled,
             turned: report.turned.iter().map(named).collect(),
             seconds: 0.0,
             file: String::new(),

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
-use super::meeting::Edge;
+use super::marks::Edge;
 
 /// What a curve runs along.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -105,5 +105,16 @@ impl Curves {
         }
         curve.nodes.insert(place, node);
         Placed::New
+    }
+
+    /// The nearest node of a curve to a place, not farther than `radius`.
+    pub(super) fn near(&self, curve: u32, place: DVec3, radius: f64, at: &[DVec3]) -> Option<u32> {
+        let curve = &self.list[curve as usize];
+        let rank = curve.rank(place);
+        let start = curve.nodes.partition_point(|v| curve.rank(at[*v as usize]) < rank - radius);
+        let reach = curve.nodes[start..].iter().take_while(|v| curve.rank(at[**v as usize]) <= rank + radius);
+        let distance = |v: u32| at[v as usize].distance_squared(place);
+        let nearest = reach.copied().min_by(|a, b| distance(*a).total_cmp(&distance(*b)).then(a.cmp(b)));
+        nearest.filter(|v| distance(*v) <= radius * radius)
     }
 }

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use robust::{Coord, orient2d};
 
 use super::curves::Course;
-use super::rounds::View;
+use super::seen_face::View;
 
 /// A straight piece of a curve in a face, between two of the nodes seen.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,41 +8,7 @@ use glam::DVec3;
 use robust::{Coord, orient2d};
 
 use super::exact::{plane_axes, volume_sign};
-
-/// Two nodes, the smaller first.
-pub(super) type Edge = [u32; 2];
-
-/// The edge between two nodes.
-#[inline]
-pub(super) fn edge(a: u32, b: u32) -> Edge {
-    if a < b { [a, b] } else { [b, a] }
-}
-
-/// Something that two faces have in common.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(super) enum Mark {
-    /// Two nodes in one place.
-    Together(u32, u32),
-    /// A node on an edge.
-    NodeOnEdge(u32, Edge),
-    /// A node within a face.
-    NodeOnFace(u32, u32),
-    /// Two edges that cross, the smaller first.
-    EdgesCross(Edge, Edge),
-    /// An edge through a face.
-    EdgeThroughFace(Edge, u32),
-}
-
-/// What a pair of faces gives.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Finding {
-    /// A common point.
-    Mark(Mark),
-    /// Faces that cross along a line, which runs through some marks and perhaps a node of both.
-    Line { faces: [u32; 2], marks: Vec<Mark>, shared: Option<u32> },
-    /// An edge that lies in the plane of a face and on it.
-    EdgeInFace(Edge, u32),
-}
+use super::marks::{Edge, Finding, Mark, edge};
 
 /// What asking about two faces came to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -111,7 +111,10 @@ impl<'a> Offsetting<'a> {
         }
         chain.holes_filled = disks.holes_filled;
         let source = |f: u32| self.sheet.sources[f as usize];
-        chain.tight = offsets.tight.iter().map(|&f| source(f)).collect();
+        chain.tight = (0..self.sheet.faces.len() as u32)
+            .filter(|&f| offsets.tight[2 * f as usize] || offsets.tight[2 * f as usize + 1])
+            .map(source)
+            .collect();
         let is_long = |v: &u32| offsets.long_mitres.binary_search(v).is_ok();
         if !offsets.long_mitres.is_empty() {
             let faces = self.sheet.faces.iter().zip(&self.sheet.sources);
@@ -131,7 +134,11 @@ impl<'a> Offsetting<'a> {
     fn push_tops(&self, offsets: &Offsets, chain: &mut OffsetChain) {
         for u in 0..2 * self.sheet.faces.len() as u32 {
             let front = u.is_multiple_of(2) != self.turned[u as usize / 2];
-            chain.mesh.faces.push(offsets.top(u));
+            let [a, b, c] = offsets.top(u);
+            if a == b || b == c || c == a {
+                continue;
+            }
+            chain.mesh.faces.push([a, b, c]);
             let role = if front { Role::FrontWall } else { Role::BackWall };
             chain.origins.push(self.origin(role, 3 * u));
         }

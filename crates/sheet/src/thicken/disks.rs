@@ -10,7 +10,7 @@ use glam::DVec3;
 
 use super::arcs::{ArcRule, push_arc};
 use super::clean_sheet::CleanSheet;
-use super::entities::{Entities, previous};
+use super::entities::{Entities, previous, use_of};
 use super::offsets::Offsets;
 use super::polar_polygon::{PolarSide, polar_polygon};
 use super::sphere_patch::{solid_angle, sphere_patch};
@@ -209,7 +209,10 @@ impl Walk<'_> {
         }
         let (x, y) = (self.xs[i], self.xs[j]);
         let across = self.entities.direction(self.sheet, corners[j]).dot(y.cross(x));
+        let tight = |c: u32| self.offsets.tight[use_of(c) as usize];
         match across / (x.length() * y.length()) {
+            // Offsets that end early have no arc about them.
+            sine if sine > NO_TURN && (tight(corners[i]) || tight(corners[j])) => Path::Straight,
             sine if sine > NO_TURN => blank,
             sine if sine < -NO_TURN => Path::ThroughNode,
             _ => Path::Straight,

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use mesh_kernel::TriMesh;
+use rayon::prelude::*;
 
 use super::clean_sheet::CleanSheet;
 use super::{OffsetChain, Origin, Role};
@@ -20,33 +21,63 @@ pub(super) struct Pieces {
     pub(super) genus: usize,
 }
 
+/// The connected parts of a closed surface.
+pub(super) struct Shells {
+    /// The shell of every node.
+    pub(super) of_node: Vec<u32>,
+    /// What every shell encloses, in cubes of the unit: below 0 about a void, 0 for a node without faces.
+    pub(super) volumes: Vec<f64>,
+}
+
+/// Tells shells apart. O(n).
+pub(super) fn shells(mesh: &TriMesh) -> Shells {
+    let mut parents: Vec<u32> = (0..mesh.positions.len() as u32).collect();
+    for &[a, b, c] in &mesh.faces {
+        for v in [b, c] {
+            let (r, s) = (root(&mut parents, a), root(&mut parents, v));
+            parents[r.max(s) as usize] = r.min(s);
+        }
+    }
+    let mut of_node = vec![0; parents.len()];
+    let mut count = 0;
+    for v in 0..parents.len() as u32 {
+        // Roots come before what they stand for.
+        let r = root(&mut parents, v);
+        of_node[v as usize] = if r == v { count } else { of_node[r as usize] };
+        count += u32::from(r == v);
+    }
+    let middle = mesh.bounds().map_or(DVec3::ZERO, |[lo, hi]| 0.5 * (lo + hi));
+    let mut volumes = vec![0.0; count as usize];
+    for (f, face) in mesh.faces.iter().enumerate() {
+        let [a, b, c] = mesh.corners(f as u32).map(|p| p - middle);
+        volumes[of_node[face[0] as usize] as usize] += a.dot(b.cross(c)) / 6.0;
+    }
+    Shells { of_node, volumes }
+}
+
 /// Counts shells and handles. O(n log n).
 pub(super) fn pieces(mesh: &TriMesh) -> Pieces {
-    let mut edges: Vec<(u32, u32, bool)> = Vec::with_capacity(3 * mesh.faces.len());
-    let mut shell: Vec<u32> = (0..mesh.positions.len() as u32).collect();
+    let mut edges: Vec<(u64, bool)> = Vec::with_capacity(3 * mesh.faces.len());
     for face in &mesh.faces {
         for k in 0..3 {
             let (a, b) = (face[k], face[(k + 1) % 3]);
-            edges.push((a.min(b), a.max(b), a < b));
-            let (ra, rb) = (root(&mut shell, a), root(&mut shell, b));
-            shell[ra.max(rb) as usize] = ra.min(rb);
+            edges.push((u64::from(a.min(b)) << 32 | u64::from(a.max(b)), a < b));
         }
     }
-    edges.sort_unstable();
+    edges.par_sort_unstable();
     let closed = edges.len().is_multiple_of(2)
-        && edges.chunks(2).all(|e| (e[0].0, e[0].1) == (e[1].0, e[1].1) && !e[0].2 && e[1].2)
-        && edges.chunks(2).zip(edges.chunks(2).skip(1)).all(|(e, f)| (e[0].0, e[0].1) != (f[0].0, f[0].1));
-    let middle = mesh.bounds().map_or(DVec3::ZERO, |[lo, hi]| 0.5 * (lo + hi));
-    let mut volume = vec![0.0; mesh.positions.len()];
+        && edges.chunks(2).all(|e| e[0].0 == e[1].0 && !e[0].1 && e[1].1)
+        && edges.chunks(2).zip(edges.chunks(2).skip(1)).all(|(e, f)| e[0].0 != f[0].0);
+    let Shells { of_node, volumes } = shells(mesh);
     let mut used = vec![false; mesh.positions.len()];
-    for (f, face) in mesh.faces.iter().enumerate() {
-        let [a, b, c] = mesh.corners(f as u32).map(|p| p - middle);
-        volume[root(&mut shell, face[0]) as usize] += a.dot(b.cross(c));
-        face.iter().for_each(|&v| used[v as usize] = true);
+    let mut has_faces = vec![false; volumes.len()];
+    for &v in mesh.faces.iter().flatten() {
+        used[v as usize] = true;
+        has_faces[of_node[v as usize] as usize] = true;
     }
     let nodes = used.iter().filter(|u| **u).count();
-    let shells = (0..shell.len()).filter(|&v| used[v] && shell[v] as usize == v).count();
-    let solids = (0..shell.len()).filter(|&v| used[v] && shell[v] as usize == v && volume[v] > 0.0).count();
+    let shells = has_faces.iter().filter(|h| **h).count();
+    let solids = volumes.iter().filter(|v| **v > 0.0).count();
     // Σ (2 − 2 genus) = v − e + f.
     let euler = nodes as i64 - (edges.len() / 2) as i64 + mesh.faces.len() as i64;
     let genus = ((2 * shells as i64 - euler) / 2).max(0) as usize;
@@ -88,7 +119,8 @@ pub(super) fn wall_range(
     }
     let mut range: Option<[f64; 2]> = None;
     for f in 0..sheet.faces.len() {
-        let whole = (0..2).all(|s| (found[f][s] - ideal[f][s]).abs() <= WHOLE * ideal[f][s]);
+        let whole =
+            (0..2).all(|s| ideal[f][s] > 0.0 && (found[f][s] - ideal[f][s]).abs() <= WHOLE * ideal[f][s]);
         if whole {
             let wall = sheet.normals[f].dot(middles[f][0] - middles[f][1]).abs();
             range = Some(range.map_or([wall; 2], |[lo, hi]| [lo.min(wall), hi.max(wall)]));

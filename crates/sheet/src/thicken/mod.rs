@@ -17,6 +17,9 @@ mod polar_polygon;
 mod report;
 mod runs;
 mod sphere_patch;
+mod tidy;
+mod tight;
+mod voids;
 mod wedges;
 
 pub use chain::{OffsetChain, offset_chain};
@@ -24,7 +27,7 @@ pub use error::ThickenError;
 pub use options::{Corners, Side, ThickenOptions, Thickness};
 pub use report::{Origin, Place, PlaceKind, Purged, Role, ThickenReport};
 
-use mesh_kernel::merge::{MergeOptions, solid_of_chain};
+use mesh_kernel::merge::{MergeOptions, Solid, solid_of_chain};
 use mesh_kernel::query::Crossings;
 use mesh_kernel::{Group, TriMesh};
 
@@ -33,6 +36,8 @@ use clean_sheet::CleanSheet;
 use entities::Entities;
 use measure::{pieces, wall_range};
 use places::places;
+use tidy::tidy;
+use voids::fill_voids;
 
 /// A thickness of more than this many times the sheet's diagonal is refused.
 pub const MAX_THICKNESS: f64 = 10.0;
@@ -121,41 +126,69 @@ pub fn thicken(
     begin(Step::Union)?;
     let cancelled = || watcher.cancelled();
     let merge = MergeOptions { cancelled: &cancelled, ..MergeOptions::default() };
-    let united = solid_of_chain(&chain.mesh, &merge)?;
+    let mut united = solid_of_chain(&chain.mesh, &merge)?;
+    let voids_filled = fill_voids(&sheet, &chain, options.side, &mut united);
+    let (redundant, self_intersections) = purge_redundant(&chain, &mut united);
     begin(Step::Measure)?;
     let volume = united.volume();
-    let (solid, origins) = by_role(united.mesh, &united.parents, &chain.origins);
+    let (purged, beads) = (united.purged, united.beads);
+    let (solid, origins) = by_role(united, &chain.origins);
     let pieces = pieces(&solid);
     let [min_wall, max_wall] = wall_range(&sheet, &chain, &solid, &origins);
     let report = ThickenReport {
         faces: solid.faces.len(),
         closed: pieces.closed,
-        self_intersections: Crossings::new(&solid).self_crossing().len(),
+        self_intersections,
         volume,
         components: pieces.solids,
         genus: pieces.genus,
         min_wall,
         max_wall,
         purged: Purged {
-            laminar: united.purged.laminar,
-            screen: united.purged.screen,
-            wire: united.purged.wire,
+            laminar: purged.laminar,
+            screen: purged.screen,
+            wire: purged.wire,
+            redundant,
             ..Purged::default()
         },
         holes_filled: chain.holes_filled,
-        beads: united.beads,
+        beads,
+        voids_filled,
         places: places(&sheet, &chain, &solid, &origins),
         turned: chain.turned,
     };
     Ok(Thickened { solid, origins, report })
 }
 
-/// The faces in the order of their roles, each role a group.
-fn by_role(mesh: TriMesh, parents: &[u32], origins: &[Origin]) -> (TriMesh, Vec<Origin>) {
+/// Takes redundant entities away, unless faces would cross then, which no plane that is one allows; returns how many, and
+/// how many pairs of faces cross.
+fn purge_redundant(chain: &OffsetChain, united: &mut Solid) -> (usize, usize) {
+    let crossing = |mesh: &TriMesh| Crossings::new(mesh).self_crossing().len();
+    let untidied = united.clone();
+    let redundant = tidy(chain, united);
+    let crossings = crossing(&united.mesh);
+    if redundant > 0 && crossings > 0 {
+        *united = untidied;
+        return (0, crossing(&united.mesh));
+    }
+    (redundant, crossings)
+}
+
+/// The faces in the order of their roles, each role a group; without nodes that no face has.
+fn by_role(united: Solid, origins: &[Origin]) -> (TriMesh, Vec<Origin>) {
+    let Solid { mesh, parents, .. } = united;
     let mut order: Vec<(Origin, usize)> =
         parents.iter().enumerate().map(|(f, &parent)| (origins[parent as usize], f)).collect();
     order.sort_by_key(|(origin, f)| (origin.role, *f));
-    let mut solid = TriMesh::new(mesh.positions, order.iter().map(|&(_, f)| mesh.faces[f]).collect());
+    let mut number = vec![u32::MAX; mesh.positions.len()];
+    mesh.faces.iter().flatten().for_each(|&v| number[v as usize] = 0);
+    let mut positions = Vec::with_capacity(mesh.positions.len());
+    for (number, p) in number.iter_mut().zip(mesh.positions).filter(|(n, _)| **n == 0) {
+        *number = positions.len() as u32;
+        positions.push(p);
+    }
+    let face = |f: usize| mesh.faces[f].map(|v| number[v as usize]);
+    let mut solid = TriMesh::new(positions, order.iter().map(|&(_, f)| face(f)).collect());
     let mut first = 0;
     for same in order.chunk_by(|a, b| a.0.role == b.0.role) {
         let end = first + same.len() as u32;

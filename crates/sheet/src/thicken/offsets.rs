@@ -1,21 +1,19 @@
-//! Offset points of all corners: runs first, a face-use's own points where its half-prism would be turned over.
+//! Offset points of all corners: those of runs; shorter ones where a half-prism would be turned over.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
 use super::clean_sheet::CleanSheet;
-use super::entities::Entities;
+use super::entities::{Entities, use_of};
 use super::half_prism::HalfPrism;
 use super::runs::{CornerOffset, RunRules, corner_offsets};
+use super::tight::{shorten, unite_ends};
 
 /// Offset points of neighbours nearer than this, in depths, are one point.
 const SAME_POINT: f64 = 1e-9;
 
 /// Rounds after which no run goes over a concave fold any more.
 const ROUNDS: usize = 6;
-
-/// Marks a run that is a single corner with its face-use's own point.
-const OWN: u32 = 1 << 31;
 
 /// The points that the offsets of face-uses have as corners.
 #[derive(Debug)]
@@ -24,9 +22,8 @@ pub(super) struct Offsets {
     pub(super) positions: Vec<DVec3>,
     /// The point of every corner; the node itself where the depth is zero.
     pub(super) point: Vec<u32>,
-    /// Faces with a half-prism that is turned over unless it has points of its own: the sheet bends more tightly than
-    /// its depth there. Ascending.
-    pub(super) tight: Vec<u32>,
+    /// Whether a face-use is tight: the sheet bends more tightly than its depth there.
+    pub(super) tight: Vec<bool>,
     /// Nodes where a mitre was longer than the limit. Ascending.
     pub(super) long_mitres: Vec<u32>,
 }
@@ -39,47 +36,45 @@ impl Offsets {
         depth: &[f64],
         mitre_limit: Option<f64>,
     ) -> Self {
-        let rules = RunRules { sheet, entities, depth, mitre_limit };
+        let mut tight = vec![false; 2 * sheet.faces.len()];
         let disk_of_place = disk_of_places(entities);
         let mut cut_concave = vec![false; entities.disks()];
-        let (mut offsets, mut long) = corner_offsets(rules, &|_| false);
         let mut round = 0;
-        let bad = loop {
+        let (mut offsets, long) = loop {
+            let rules = RunRules { sheet, entities, depth, mitre_limit, tight: &tight };
+            let (offsets, long) = corner_offsets(rules, &|d| cut_concave[d]);
             let bad = turned_over(sheet, entities, depth, &offsets);
-            let mut changed = false;
+            let mut cut = false;
             for &u in &bad {
                 for corner in 3 * u..3 * u + 3 {
                     let place = entities.place[corner as usize] as usize;
                     let disk = disk_of_place[place] as usize;
-                    changed |= offsets[place].over_fold && !cut_concave[disk];
+                    cut |= offsets[place].over_fold && !cut_concave[disk];
                     cut_concave[disk] |= offsets[place].over_fold;
                 }
-            }
-            if !changed {
-                break bad;
             }
             round += 1;
             if round == ROUNDS {
                 cut_concave.fill(true);
             }
-            (offsets, long) = corner_offsets(rules, &|d| cut_concave[d]);
-        };
-        for &u in &bad {
-            for corner in 3 * u..3 * u + 3 {
-                let place = entities.place[corner as usize];
-                offsets[place as usize] = CornerOffset {
-                    x: depth[corner as usize] * entities.normal(sheet, corner),
-                    run: place | OWN,
-                    over_fold: false,
-                };
+            let mut more = false;
+            if !cut {
+                // What no cut at a fold cures is tight; that its neighbours have runs of their own then may make them so.
+                for &u in &bad {
+                    more |= !tight[u as usize];
+                    tight[u as usize] = true;
+                }
             }
-        }
-        let mut tight: Vec<u32> = bad.iter().map(|u| u / 2).collect();
-        tight.dedup();
+            if !cut && !more {
+                break (offsets, long);
+            }
+        };
+        shorten(sheet, entities, &tight, &mut offsets);
         let mut long_mitres: Vec<u32> =
             long.into_iter().map(|d| entities.node[entities.disk(d)[0] as usize]).collect();
         long_mitres.dedup();
-        let (positions, point) = number_points(sheet, entities, depth, &offsets);
+        let (mut positions, mut point) = number_points(sheet, entities, depth, &tight, &offsets);
+        unite_ends(sheet, entities, depth, &tight, &mut positions, &mut point);
         Self { positions, point, tight, long_mitres }
     }
 }
@@ -116,14 +111,17 @@ fn number_points(
     sheet: &CleanSheet,
     entities: &Entities,
     depth: &[f64],
+    tight: &[bool],
     offsets: &[CornerOffset],
 ) -> (Vec<DVec3>, Vec<u32>) {
     let mut positions = sheet.positions.clone();
     let mut point = vec![0; offsets.len()];
     // Runs of the disk at hand: name, offset, point.
     let mut runs: Vec<(u32, DVec3, u32)> = Vec::new();
+    let mut tight_runs: Vec<u32> = Vec::new();
     for d in 0..entities.disks() {
         runs.clear();
+        tight_runs.clear();
         let start = entities.disk_start[d] as usize;
         for (i, &corner) in entities.disk(d).iter().enumerate() {
             let CornerOffset { x, run, .. } = offsets[start + i];
@@ -131,8 +129,16 @@ fn number_points(
             let known = runs.iter().rev().find(|r| r.0 == run).map(|r| r.2);
             point[corner as usize] = known.unwrap_or_else(|| {
                 let near = SAME_POINT * depth[corner as usize];
-                let neighbours = [runs.last(), runs.first()];
-                let neighbour = neighbours.iter().flatten().find(|r| r.1.distance(x) <= near);
+                // Ends of tight offsets move on: nothing else may have their points.
+                let is_tight = tight[use_of(corner) as usize];
+                let neighbours = [runs.last(), runs.first()].into_iter().flatten();
+                let neighbour = neighbours
+                    .filter(|r| !is_tight && !tight_runs.contains(&r.0))
+                    .find(|r| r.1.distance(x) <= near)
+                    .copied();
+                if is_tight {
+                    tight_runs.push(run);
+                }
                 let id = match neighbour {
                     _ if x == DVec3::ZERO => node,
                     Some(neighbour) => neighbour.2,

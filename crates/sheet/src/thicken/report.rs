@@ -110,6 +110,8 @@ pub struct ThickenReport {
     pub holes_filled: usize,
     /// Edges and nodes where parts only touched and were joined by a bead.
     pub beads: usize,
+    /// Voids that were filled: nearer to the sheet than the depth, left where it bends more tightly than that.
+    pub voids_filled: usize,
     /// Patches with faces that were turned so that the sheet has one front; one-sided thickening only.
     pub turned: Vec<u32>,
     /// Places that deserve a look.

@@ -7,7 +7,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::clean_sheet::CleanSheet;
-use super::entities::{Entities, face_of, next, previous};
+use super::entities::{Entities, face_of, next, previous, use_of};
 use super::offset_point::{Plane, meeting};
 
 /// A wedge that bends by no more than this, in radians, is smooth (30°).
@@ -19,6 +19,10 @@ const SHARPEST_MITRE: f64 = 175.0 / 180.0 * std::f64::consts::PI;
 /// Farthest that the offset point of a smooth run may be, and that of one with a concave fold, in depths.
 const FAR_SMOOTH: f64 = 1.5;
 const FAR_CONCAVE: f64 = 2.5;
+/// The same for a smooth run that is nowhere convex: in a hollow cone the offset planes do meet that far inside.
+const FAR_HOLLOW: f64 = 10.0;
+/// A wedge that turns by no more than this, in radians, is flat.
+const FLAT: f64 = 1e-9;
 /// Farthest that a plane may miss the offset point of a smooth run, and that of one with a fold inside, in depths.
 const MISS_SMOOTH: f64 = 0.05;
 const MISS_FOLD: f64 = 0.01;
@@ -48,6 +52,8 @@ pub(super) struct RunRules<'a> {
     pub(super) depth: &'a [f64],
     /// Longest mitre in depths; `None`: round folds.
     pub(super) mitre_limit: Option<f64>,
+    /// Face-uses that are tight (see [`super::tight`]): none is in a run with one that is not.
+    pub(super) tight: &'a [bool],
 }
 
 /// How far a run has been cut.
@@ -84,6 +90,8 @@ impl Join {
 struct DiskCorner {
     plane: Plane,
     join: Join,
+    /// How far the wedge between this corner and the next opens beyond 180°, in radians.
+    turn: f64,
     /// Direction of the edge shared with the next corner, away from the node.
     edge: DVec3,
 }
@@ -164,6 +172,7 @@ impl RunRules<'_> {
             out.push(DiskCorner {
                 plane,
                 join: self.join(corner, following),
+                turn: self.entities.turn[following as usize],
                 edge: self.entities.direction(self.sheet, following),
             });
         }
@@ -171,6 +180,9 @@ impl RunRules<'_> {
 
     fn join(&self, corner: u32, following: u32) -> Join {
         if face_of(corner) == face_of(following) && self.entities.is_sharp(following) {
+            return Join::Break;
+        }
+        if self.tight[use_of(corner) as usize] != self.tight[use_of(following) as usize] {
             return Join::Break;
         }
         let turn = self.entities.turn[following as usize];
@@ -222,11 +234,14 @@ impl Disk<'_> {
         let has = |join| joins.clone().any(|i| self.corner(i).join == join);
         let (concave, mitre) = (has(Join::Concave), has(Join::Mitre));
         let depth = self.planes.iter().map(|p| p.depth).fold(0.0, f64::max);
-        let far = FAR_SMOOTH.max(if concave { FAR_CONCAVE } else { 0.0 }).max(if mitre {
-            self.mitre_limit
-        } else {
-            0.0
-        });
+        let hollow = joins.clone().all(|i| self.corner(i).turn <= FLAT);
+        let far = match (concave, mitre) {
+            (false, false) if hollow => FAR_HOLLOW,
+            (false, false) => FAR_SMOOTH,
+            (true, false) => FAR_CONCAVE,
+            (false, true) => FAR_SMOOTH.max(self.mitre_limit),
+            (true, true) => FAR_CONCAVE.max(self.mitre_limit),
+        };
         let miss = if concave || mitre { MISS_FOLD } else { MISS_SMOOTH };
         // A little more, lest a mitre of exactly the limit hang on rounding.
         let fits = met.x.length() <= far * depth * (1.0 + 1e-9)
