@@ -49,6 +49,7 @@ fn words() {
         "toile features b.obj -o f.json --picture f.png",
         "toile check m.obj",
         "toile thicken s.obj --thickness 2 --side both --corners mitre -o s.stl --patch-thickness a=3 --mitre-limit 3",
+        "toile deflate s.stl --max-thickness 3 --max-draft 5 --simplify 2 --keep 1 -o m.obj --inp m.inp --edge-length 2",
         "toile thicken s.obj --thickness-file s.json --chord 0.01 --unit m -o s.glb",
     ];
     run("words", Shape::Bytes, &calls, |text| {
@@ -71,6 +72,11 @@ fn words() {
                 vec![3, width as usize, height as usize]
             }
             Command::Form(_) => vec![4],
+            Command::Deflate(words) => {
+                let lengths = words.max_thickness.iter().chain(&words.simplify).chain(&words.edge_length);
+                assert!(lengths.clone().all(|t| t.is_finite() && *t > 0.0));
+                vec![7, lengths.count(), words.keep.len()]
+            }
             Command::Thicken(words) => {
                 let named = words.patch_thickness.iter().map(|n| n.1);
                 let all = named.chain(words.thickness).chain(words.chord).chain(words.mitre_limit);

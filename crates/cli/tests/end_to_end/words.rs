@@ -4,8 +4,8 @@ use crate::call::{Folder, toile, word};
 use crate::fixtures::{dress, form};
 
 /// All commands.
-const COMMANDS: [&str; 9] =
-    ["regenerate", "batch", "features", "form", "check", "info", "flatten", "thicken", "render"];
+const COMMANDS: [&str; 10] =
+    ["regenerate", "batch", "features", "form", "check", "info", "flatten", "thicken", "deflate", "render"];
 
 #[test]
 fn help_explains_every_command() {
@@ -21,7 +21,7 @@ fn help_explains_every_command() {
 
 #[test]
 fn unknown_and_missing_words_are_refused() {
-    let calls: [&[&str]; 35] = [
+    let calls: [&[&str]; 40] = [
         &["sew"],
         &["regenerate"],
         &["regenerate", "t.json"],
@@ -42,6 +42,11 @@ fn unknown_and_missing_words_are_refused() {
         &["check"],
         &["info", "--volume", "a.obj"],
         &["flatten", "a.obj"],
+        &["deflate", "a.obj"],
+        &["deflate", "-o", "b.obj"],
+        &["deflate", "a.obj", "-o", "b.obj", "--simplify", "0"],
+        &["deflate", "a.obj", "-o", "b.obj", "--keep", "first"],
+        &["deflate", "a.obj", "-o", "b.obj", "--elements", "s8"],
         &["thicken", "a.obj", "--thickness", "2"],
         &["thicken", "a.obj", "-o", "b.obj"],
         &["thicken", "--thickness", "2", "-o", "b.obj"],
@@ -86,6 +91,8 @@ fn words_that_only_the_program_can_judge_are_refused_too() {
         vec!["form", "--bust", "90", "-o", "a.docx"],
         vec!["thicken", form, "--thickness", "2", "-o", "a.docx"],
         vec!["thicken", form, "--thickness", "2", "-o", "a"],
+        vec!["deflate", form, "-o", "a.docx"],
+        vec!["deflate", form, "-o", "a.obj", "--vtk", "a.vtu"],
         vec!["flatten", form, "-o", "a.svg", "--cut", "1-x"],
         vec!["flatten", form, "-o", "a.svg", "--cut", "0-1"],
     ];
