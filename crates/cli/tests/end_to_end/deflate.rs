@@ -37,7 +37,7 @@ fn tee(length: f64, scale: f64) -> String {
         text.push_str(&format!("f {a} {b} {} {}\n", b + 8, a + 8));
     }
     for [a, b, c, d] in [[1, 2, 3, 4], [1, 4, 7, 8], [4, 5, 6, 7]] {
-        text.push_str(&format!("f {d} {c} {b} {a}\nf {} {} {} {}\n", a + 8, b + 8, c + 8, d + 8));
+        text.push_str(&format!("f {a} {d} {c} {b}\nf {} {} {} {}\n", a + 8, b + 8, c + 8, d + 8));
     }
     text
 }

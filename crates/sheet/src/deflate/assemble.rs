@@ -1,13 +1,14 @@
 //! Extraction and stitching: the kept walls at their middles become one mesh with shared nodes (Sheen et al. 2008,
 //! section 7, and what the paper leaves to others).
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use glam::DVec3;
 
 use super::DeflateOptions;
 use super::fill::{Outline, fill};
 use super::middle::Middles;
+use super::plan::{Plan, border, plan};
 use super::plane::Plane;
 use super::seams::{Merged, Nearness, Seams};
 use super::segments::Segments;
@@ -22,12 +23,6 @@ const CHORDS: f64 = 0.25;
 const ROUNDING: f64 = 1e-6;
 /// Nodes inside plane pieces keep this share of the thickness away from edges.
 const MARGIN: f64 = 0.4;
-/// Sides of a wall whose normals differ by less than this are parallel.
-const PARALLEL: f64 = 1e-4;
-/// The thickness changes by this share along an edge of a wall with draft.
-const EVEN: f64 = 0.01;
-/// Strips narrower than this share of the thickness are no steps.
-const STEP: f64 = 0.02;
 
 /// What a face of the mid-surface came from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -51,22 +46,6 @@ pub(super) struct Sheet {
     pub(super) groups: Vec<Vec<u32>>,
     /// Edges of outlines that were lost.
     pub(super) lost: usize,
-}
-
-/// Which groups are made into what.
-pub(super) struct Plan {
-    /// Plane pieces: plane, groups with whether they face as it, and whether it is a step.
-    planes: Vec<PlanePiece>,
-    /// Curved groups.
-    curved: Vec<u32>,
-}
-
-struct PlanePiece {
-    plane: Plane,
-    groups: Vec<(u32, bool)>,
-    is_step: bool,
-    /// How long edges may be so that the thickness is nearly even in every triangle; `None` where it is even.
-    edge_length: Option<f64>,
 }
 
 /// Where the solid's nodes go.
@@ -118,139 +97,6 @@ pub(super) fn assemble(
 fn mean_thickness(walls: &Walls) -> f64 {
     let area: f64 = walls.pairs.iter().map(|p| p.area).sum();
     walls.pairs.iter().map(|p| p.area * p.thickness).sum::<f64>() / area.max(f64::MIN_POSITIVE)
-}
-
-/// The directed edges of a group to other groups, but for those that are gone.
-fn border(solid: &Solid, segments: &Segments, gone: &[bool], g: u32) -> impl Iterator<Item = [u32; 2]> {
-    let faces = &segments.group(g).faces;
-    let sides = faces.iter().flat_map(|f| 3 * f..3 * f + 3);
-    let beyond = move |h: &u32| segments.of(solid.across(*h));
-    sides.filter(move |h| beyond(h) != g && !gone[beyond(h) as usize]).map(|h| solid.adjacency.ends(h))
-}
-
-#[allow(clippy::too_many_arguments, reason = "one call, all of them what was found before")]
-fn plan(
-    solid: &Solid,
-    segments: &Segments,
-    walls: &Walls,
-    middles: &Middles,
-    gone: &[bool],
-    kept: &[bool],
-    moved: &[DVec3],
-    options: &DeflateOptions,
-) -> Plan {
-    let mut by_plane: BTreeMap<u32, PlanePiece> = BTreeMap::new();
-    let mut curved = Vec::new();
-    for g in (0..segments.groups.len() as u32).filter(|g| kept[*g as usize]) {
-        let exact = middles.only(g).and_then(|plane| {
-            let pair = walls.partners(g).iter().find_map(|p| middles.between(g, p.partner))?;
-            Some((plane, pair.1))
-        });
-        match exact {
-            Some((plane, number)) => {
-                let shared = middles.mid_planes.plane(number);
-                let piece = by_plane.entry(number);
-                let piece = piece.or_insert_with(|| PlanePiece {
-                    plane: shared,
-                    groups: Vec::new(),
-                    is_step: false,
-                    edge_length: None,
-                });
-                piece.groups.push((g, plane.normal.dot(shared.normal) > 0.0));
-                let even = even_length(segments, walls, g);
-                piece.edge_length = match (piece.edge_length, even) {
-                    (Some(a), Some(b)) => Some(a.min(b)),
-                    (a, b) => a.or(b),
-                };
-            }
-            None => curved.push(g),
-        }
-    }
-    let mut planes: Vec<PlanePiece> = by_plane.into_values().collect();
-    // The piece faces as most of it did on the solid.
-    for piece in &mut planes {
-        let area = |(g, same): &(u32, bool)| if *same { 1.0 } else { -1.0 } * segments.group(*g).area;
-        if piece.groups.iter().map(area).sum::<f64>() < 0.0 {
-            piece.plane = piece.plane.flipped();
-            piece.groups.iter_mut().for_each(|g| g.1 = !g.1);
-        }
-    }
-    if options.steps != super::Steps::Apart {
-        planes.extend(steps(solid, segments, walls, gone, kept, moved));
-    }
-    Plan { planes, curved }
-}
-
-/// How long edges may be in a wall whose sides are not parallel.
-fn even_length(segments: &Segments, walls: &Walls, g: u32) -> Option<f64> {
-    let own = segments.group(g).plane?;
-    let of_pair = |p: &super::walls::Pair| {
-        let slope = (own.normal + segments.group(p.partner).plane?.normal).length();
-        (slope > PARALLEL).then(|| EVEN * p.thickness / slope)
-    };
-    walls.partners(g).iter().filter_map(of_pair).min_by(f64::total_cmp)
-}
-
-/// Faces without a partner that stand between two middles: where the thickness steps.
-fn steps(
-    solid: &Solid,
-    segments: &Segments,
-    walls: &Walls,
-    gone: &[bool],
-    kept: &[bool],
-    moved: &[DVec3],
-) -> Vec<PlanePiece> {
-    let mut found = Vec::new();
-    for (g, group) in (0u32..).zip(&segments.groups) {
-        let Some(plane) = group.plane.filter(|_| !walls.is_wall[g as usize] && !gone[g as usize]) else {
-            continue;
-        };
-        let mut beside: BTreeSet<u32> = BTreeSet::new();
-        for &f in &group.faces {
-            let others = (3 * f..3 * f + 3).map(|h| segments.of(solid.across(h)));
-            beside.extend(others.filter(|o| kept[*o as usize]));
-        }
-        if beside.len() < 2 {
-            continue;
-        }
-        // Twice the area that is left, and its outline.
-        let (mut area, mut length, mut longest) = (DVec3::ZERO, 0.0, 0.0f64);
-        let origin = moved[solid.mesh.faces[group.faces[0] as usize][0] as usize];
-        for [a, b] in border(solid, segments, gone, g) {
-            let (p, q) = (moved[a as usize] - origin, moved[b as usize] - origin);
-            area += p.cross(q);
-            length += p.distance(q);
-            longest = longest.max(p.length());
-        }
-        let area = area.dot(plane.normal).abs() / 2.0;
-        let width = 2.0 * area / length.max(f64::MIN_POSITIVE);
-        let thin =
-            beside.iter().flat_map(|b| walls.partners(*b)).map(|p| p.thickness).fold(f64::MAX, f64::min);
-        if width > STEP * thin && width < walls.max_thickness && width < 0.5 * longest {
-            let origin = moved_plane(solid, segments, gone, g, moved, plane);
-            found.push(PlanePiece {
-                plane: origin,
-                groups: vec![(g, true)],
-                is_step: true,
-                edge_length: None,
-            });
-        }
-    }
-    found
-}
-
-/// The plane of a step stays where it was: its nodes move within it.
-fn moved_plane(
-    solid: &Solid,
-    segments: &Segments,
-    gone: &[bool],
-    g: u32,
-    moved: &[DVec3],
-    plane: Plane,
-) -> Plane {
-    let nodes: Vec<f64> =
-        border(solid, segments, gone, g).map(|[a, _]| plane.normal.dot(moved[a as usize])).collect();
-    Plane { offset: nodes.iter().sum::<f64>() / nodes.len().max(1) as f64, ..plane }
 }
 
 /// Edges of curved pieces that got very short close.

@@ -9,6 +9,7 @@ mod follow;
 mod middle;
 mod options;
 mod patches;
+mod plan;
 mod plane;
 mod replace;
 mod report;

@@ -23,6 +23,8 @@ const SLENDER: f64 = 0.35;
 const OBLIQUE: f64 = 70.0 / 180.0 * std::f64::consts::PI;
 /// Facets lean by no more than the folds about them and this, in radians, where their walls are parallel.
 const FLARE: f64 = 5.0 / 180.0 * std::f64::consts::PI;
+/// Neighbours are as thick if they are by this share.
+const ALIKE: f64 = 0.1;
 /// Rays begin this far inside, over the solid's size.
 const START: f64 = 1e-9;
 
@@ -93,17 +95,25 @@ impl Walls {
         let paired: f64 = looks.iter().filter(|l| l.seen.is_some()).map(|l| l.area).sum();
         walls.paired_share = paired / total;
         walls.pairs = pairs_of(&looks);
-        walls.is_wall = (0..segments.groups.len() as u32)
+        let thick: Vec<Option<f64>> = (0..segments.groups.len() as u32)
             .map(|g| {
                 let group = segments.group(g);
                 let least = if group.plane.is_some() { PAIRED_PLANE } else { PAIRED_CURVED };
                 let partners = walls.partners(g);
                 let paired: f64 = partners.iter().map(|p| p.area).sum();
                 let thick = partners.iter().map(|p| p.area * p.thickness).sum::<f64>() / paired;
-                // What is not even as wide as it is thick is the end of something.
-                paired >= least * group.area && group.area > thick * thick
+                (paired > 0.0 && paired >= least * group.area).then_some(thick)
             })
             .collect();
+        walls.is_wall = thick.iter().map(Option::is_some).collect();
+        for (g, group) in (0u32..).zip(&segments.groups) {
+            // What is not even as wide as it is thick is the end of something, unless it goes on in a wall that is as thick.
+            let Some(own) = thick[g as usize].filter(|t| group.area <= t * t) else { continue };
+            let mut beside =
+                group.faces.iter().flat_map(|f| 3 * f..3 * f + 3).map(|h| segments.of(solid.across(h)));
+            let alike = |other: f64| (other - own).abs() < ALIKE * own;
+            walls.is_wall[g as usize] = beside.any(|o| o != g && thick[o as usize].is_some_and(alike));
+        }
         // Who is no wall is nobody's partner.
         let is_wall = &walls.is_wall;
         walls.pairs.retain(|p| is_wall[p.group as usize] && is_wall[p.partner as usize]);
