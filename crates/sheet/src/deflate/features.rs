@@ -126,7 +126,7 @@ fn blend(solid: &Solid, segments: &Segments, walls: &Walls, blends: &Blends, set
     };
     // A strip turns by its width over its radius.
     let size = if plane { width } else { area(segments, &set.groups) / f64::max(turn, f64::MIN_POSITIVE) };
-    Some(Feature {
+    (size < SMALL * walls.max_thickness).then(|| Feature {
         kind,
         at: middle(solid, &faces),
         size,

@@ -23,6 +23,10 @@ const SLENDER: f64 = 0.35;
 const OBLIQUE: f64 = 70.0 / 180.0 * std::f64::consts::PI;
 /// Facets lean by no more than the folds about them and this, in radians, where their walls are parallel.
 const FLARE: f64 = 5.0 / 180.0 * std::f64::consts::PI;
+/// Walls are thicker than this share of what walls are on the whole.
+const HAIR: f64 = 0.03;
+/// Walls are wider than this share of it.
+const TRIFLE: f64 = 0.3;
 /// Neighbours are as thick if they are by this share.
 const ALIKE: f64 = 0.1;
 /// Rays begin this far inside, over the solid's size.
@@ -105,10 +109,17 @@ impl Walls {
                 (paired > 0.0 && paired >= least * group.area).then_some(thick)
             })
             .collect();
+        let walled = || thick.iter().zip(&segments.groups).filter_map(|(t, g)| t.map(|t| (t, g.area)));
+        let typical = walled().map(|(t, a)| t * a).sum::<f64>() / walled().map(|(_, a)| a).sum::<f64>();
+        // Splinters of a hair's thickness are left where meshes were cut; they are no walls.
+        let thick: Vec<Option<f64>> = thick.into_iter().map(|t| t.filter(|t| *t > HAIR * typical)).collect();
         walls.is_wall = thick.iter().map(Option::is_some).collect();
         for (g, group) in (0u32..).zip(&segments.groups) {
             // What is not even as wide as it is thick is the end of something, unless it goes on in a wall that is as thick.
-            let Some(own) = thick[g as usize].filter(|t| group.area <= t * t) else { continue };
+            let width = |t: f64| t.max(TRIFLE * typical);
+            let Some(own) = thick[g as usize].filter(|t| group.area <= width(*t) * width(*t)) else {
+                continue;
+            };
             let mut beside =
                 group.faces.iter().flat_map(|f| 3 * f..3 * f + 3).map(|h| segments.of(solid.across(h)));
             let alike = |other: f64| (other - own).abs() < ALIKE * own;
