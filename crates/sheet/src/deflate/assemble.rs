@@ -17,6 +17,8 @@ use super::walls::Walls;
 
 /// Edges of curved pieces shorter than this share of the wall's thickness close when they got that short by moving.
 const CLOSED: f64 = 0.02;
+/// Edges of curved pieces shorter than this share of the thickness are left over from closing and close too.
+const SHORT: f64 = 0.015;
 /// Borders of curved pieces that are this near, over the thickness, are one.
 const CHORDS: f64 = 0.25;
 /// What is exact agrees to this share of the solid's size.
@@ -90,7 +92,9 @@ pub(super) fn assemble(
     seams.refine(length_of);
     let mut sheet = Sheet { positions: seams.positions.clone(), ..Sheet::default() };
     add_planes(&mut sheet, solid, segments, gone, &plan, &seams, &borders, options, MARGIN * thickness);
+    let first_curved = sheet.faces.len();
     add_curved(&mut sheet, solid, segments, &plan, &seams);
+    contract(&mut sheet, first_curved, SHORT * thickness);
     sheet.without_unused_nodes()
 }
 
@@ -177,7 +181,6 @@ fn add_planes(
 }
 
 fn add_curved(sheet: &mut Sheet, solid: &Solid, segments: &Segments, plan: &Plan, seams: &Seams) {
-    let first = sheet.faces.len();
     for &g in &plan.curved {
         for &f in &segments.group(g).faces {
             let sides = [0, 1, 2].map(|k| {
@@ -190,6 +193,29 @@ fn add_curved(sheet: &mut Sheet, solid: &Solid, segments: &Segments, plan: &Plan
             }
         }
     }
+}
+
+/// Makes one of the ends of very short edges of curved pieces.
+fn contract(sheet: &mut Sheet, first: usize, short: f64) {
+    let mut merged = Merged::new(sheet.positions.len());
+    for &[a, b, c] in &sheet.faces[first..] {
+        for [p, q] in [[a, b], [b, c], [c, a]] {
+            if sheet.positions[p as usize].distance(sheet.positions[q as usize]) < short {
+                merged.join(p, q);
+            }
+        }
+    }
+    let mut stays = Vec::with_capacity(sheet.faces.len());
+    for face in &mut sheet.faces {
+        *face = face.map(|v| merged.find(v));
+        let [a, b, c] = *face;
+        stays.push(a != b && b != c && c != a);
+    }
+    let first = first - stays[..first].iter().filter(|s| !**s).count();
+    let mut keep = stays.iter();
+    sheet.faces.retain(|_| keep.next().copied().unwrap_or(true));
+    let mut keep = stays.iter();
+    sheet.sources.retain(|_| keep.next().copied().unwrap_or(true));
     cancel_doubles(sheet, first);
 }
 

@@ -274,7 +274,7 @@ fn told_thickness(looks: &[Look], area: f64) -> f64 {
 fn pairs_of(looks: &[Look]) -> Vec<Pair> {
     let mut seen: Vec<(u32, u32, f64, f64)> =
         looks.iter().filter_map(|l| l.seen.map(|(partner, s)| (l.group, partner, l.area, s))).collect();
-    seen.sort_by(|a, b| (a.0, a.1).cmp(&(b.0, b.1)));
+    seen.sort_by_key(|s| (s.0, s.1));
     let same = |a: &(u32, u32, f64, f64), b: &(u32, u32, f64, f64)| (a.0, a.1) == (b.0, b.1);
     let pair = |run: &[(u32, u32, f64, f64)]| {
         let area: f64 = run.iter().map(|r| r.2).sum();
