@@ -179,12 +179,8 @@ impl Regions {
                     }
                     let corners = solid.mesh.corners(g);
                     let near = corners.iter().all(|p| (normal.dot(*p) - offset).abs() < tolerance);
-                    // A face as thin as the tolerance may stand at any angle and still be near.
-                    let turn = solid.normals[g as usize].cross(normal).length();
-                    let height = 2.0 * solid.areas[g as usize] / longest_side(&corners);
-                    let allowed = COPLANAR_TURN.max(2.0 * tolerance / height.max(f64::MIN_POSITIVE));
                     let same_side = solid.normals[g as usize].dot(normal) > 0.5;
-                    if near && turn < allowed && same_side {
+                    if near && same_side && is_turned_little(solid, g, normal, &corners, tolerance) {
                         of_face[g as usize] = number;
                         stack.push(g);
                     }
@@ -316,6 +312,16 @@ impl Regions {
             is_plane[region as usize] = true;
         }
     }
+}
+
+/// Whether a face has about the given normal. One as thin as the tolerance may stand at any angle and still be near.
+fn is_turned_little(solid: &Solid, f: u32, normal: DVec3, corners: &[DVec3; 3], tolerance: f64) -> bool {
+    let turn = solid.normals[f as usize].cross(normal).length_squared();
+    if turn < COPLANAR_TURN * COPLANAR_TURN {
+        return true;
+    }
+    let height = 2.0 * solid.areas[f as usize] / longest_side(corners);
+    turn.sqrt() < 2.0 * tolerance / height.max(f64::MIN_POSITIVE)
 }
 
 fn longest_side([a, b, c]: &[DVec3; 3]) -> f64 {
