@@ -1,5 +1,6 @@
 //! The document and the pipeline: template and body in, garment, pattern, pictures and report out.
 //!
+//! * [`modelling`]: scripts of modelling commands;
 //! * [`mod@regenerate`]: features → construction → flattening → pieces → files;
 //! * [`batch`]: the same for many bodies;
 //! * [`report`]: the keys of `report.json`;
@@ -8,6 +9,7 @@
 //! * [`model_info`]: what a model holds;
 //! * [`mod@thicken`]: a sheet to a solid's file;
 //! * [`mod@deflate`]: a solid to its mid-surface's file;
+//! * [`sheet_metal`]: bends, welds and flat plates of a sheet;
 //! * [`units`]: what a file's numbers mean;
 //! * [`output`]: files made in memory, then written.
 
@@ -17,9 +19,11 @@ pub mod document;
 mod fingerprint;
 mod garment_pattern;
 pub mod model_info;
+pub mod modelling;
 pub mod output;
 pub mod pictures;
 pub mod regenerate;
 pub mod report;
+pub mod sheet_metal;
 pub mod thicken;
 pub mod units;

@@ -50,6 +50,9 @@ fn words() {
         "toile check m.obj",
         "toile thicken s.obj --thickness 2 --side both --corners mitre -o s.stl --patch-thickness a=3 --mitre-limit 3",
         "toile deflate s.stl --max-thickness 3 --max-draft 5 --simplify 2 --keep 1 -o m.obj --inp m.inp --edge-length 2",
+        "toile model s.json -o s.obj",
+        "toile bends s.obj --facets planes --unit cm --json",
+        "toile unfold s.obj -o s.dxf --thickness 2 --radius 3 --k-factor 0.42 --layer inside --relief round --relief-width 3",
         "toile thicken s.obj --thickness-file s.json --chord 0.01 --unit m -o s.glb",
     ];
     run("words", Shape::Bytes, &calls, |text| {
@@ -82,6 +85,12 @@ fn words() {
                 let all = named.chain(words.thickness).chain(words.chord).chain(words.mitre_limit);
                 assert!(all.clone().all(|t| t.is_finite() && t > 0.0));
                 vec![6, all.count()]
+            }
+            Command::Unfold(words) => {
+                assert!((0.0..=1.0).contains(&words.k_factor));
+                let lengths = [words.thickness, words.radius, words.relief_width, words.relief_depth];
+                assert!(lengths.iter().flatten().all(|x| x.is_finite() && *x >= 0.0));
+                vec![7, lengths.iter().flatten().count()]
             }
             _ => vec![5],
         })

@@ -1,17 +1,15 @@
 //! `toile thicken`: a sheet to a solid.
 
-use std::path::Path;
 use std::time::Instant;
 
 use design::thicken::{
     NamedPlace, Settings, ThickenFileError, ThickenFileReport, ThicknessError, ThicknessWish, list_from_json,
     thicken,
 };
-use mesh_kernel::TriMesh;
 use mesh_kernel::files::Format;
 use sheet::thicken::{Corners, PlaceKind, Side, Step, Watcher};
 
-use super::{file_name, is_body_file, read_body, read_mesh, write};
+use super::{file_name, is_body_file, read_sheet, write};
 use crate::failure::Failure;
 use crate::speech::{Speech, table};
 use crate::words::{FoldCorners, Thicken, Unit, WallSide};
@@ -50,15 +48,6 @@ pub(crate) fn run(words: &Thicken, speech: &Speech) -> Result<(), Failure> {
         speech.warn(warning);
     }
     speech.report(&made.report, || summary(&made.report))
-}
-
-/// A native body is welded at its joints; of any other file the groups are the patches.
-fn read_sheet(path: &Path) -> Result<TriMesh, Failure> {
-    if !is_body_file(path) {
-        return read_mesh(path);
-    }
-    let mesh = read_body(path)?.to_tri_mesh();
-    if mesh.faces.is_empty() { Err(Failure::new("the body has no faces").about(path)) } else { Ok(mesh) }
 }
 
 fn thickness(words: &Thicken) -> Result<ThicknessWish, Failure> {

@@ -14,6 +14,7 @@ mod fixtures;
 mod forms;
 mod models;
 mod regenerate;
+mod sheet_metal;
 mod thicken;
 mod threads;
 mod words;

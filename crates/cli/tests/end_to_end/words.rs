@@ -4,8 +4,21 @@ use crate::call::{Folder, toile, word};
 use crate::fixtures::{dress, form};
 
 /// All commands.
-const COMMANDS: [&str; 10] =
-    ["regenerate", "batch", "features", "form", "check", "info", "flatten", "thicken", "deflate", "render"];
+const COMMANDS: [&str; 13] = [
+    "regenerate",
+    "batch",
+    "features",
+    "form",
+    "check",
+    "info",
+    "flatten",
+    "thicken",
+    "deflate",
+    "model",
+    "bends",
+    "unfold",
+    "render",
+];
 
 #[test]
 fn help_explains_every_command() {
@@ -21,7 +34,7 @@ fn help_explains_every_command() {
 
 #[test]
 fn unknown_and_missing_words_are_refused() {
-    let calls: [&[&str]; 40] = [
+    let calls: [&[&str]; 50] = [
         &["sew"],
         &["regenerate"],
         &["regenerate", "t.json"],
@@ -60,6 +73,16 @@ fn unknown_and_missing_words_are_refused() {
         &["thicken", "a.obj", "-o", "b.obj", "--thickness", "2", "--thickness-file", "t.json"],
         &["thicken", "a.obj", "-o", "b.obj", "--thickness", "2", "--mitre-limit", "0.5"],
         &["thicken", "a.obj", "-o", "b.obj", "--thickness", "2", "--chord", "inf"],
+        &["model"],
+        &["bends"],
+        &["bends", "a.obj", "--facets", "all"],
+        &["unfold", "a.obj"],
+        &["unfold", "-o", "a.dxf"],
+        &["unfold", "a.obj", "-o", "a.dxf", "--thickness", "0"],
+        &["unfold", "a.obj", "-o", "a.dxf", "--radius", "-1"],
+        &["unfold", "a.obj", "-o", "a.dxf", "--k-factor", "1.5"],
+        &["unfold", "a.obj", "-o", "a.dxf", "--relief", "star"],
+        &["unfold", "a.obj", "-o", "a.dxf", "--layer", "top"],
         &["render", "a.obj", "-o", "a.png", "--view", "inside"],
         &["render", "a.obj"],
     ];

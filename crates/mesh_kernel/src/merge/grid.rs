@@ -20,6 +20,8 @@ pub(super) struct Grid {
     origin: DVec3,
     /// How near things coincide, in cells.
     pub(super) near: f64,
+    /// Farthest that this is ever stretched to, in cells.
+    pub(super) farthest_near: f64,
 }
 
 /// How near things coincide, in cells of the finest grid: 6·10⁻¹¹ of the size. What rounding the corners of two walls in
@@ -27,6 +29,8 @@ pub(super) struct Grid {
 const NEAR: f64 = 64.0;
 /// The same on a coarse grid, whose cells are larger than what any formula leaves.
 const NEAR_ON_COARSE: f64 = 4.0;
+/// Cells that it is stretched to on a coarse grid at most.
+const FARTHEST_ON_COARSE: f64 = 256.0;
 
 impl Grid {
     /// A grid of 2^`bits` cells over half the size of a box, cells never finer than doubles are there.
@@ -36,12 +40,13 @@ impl Grid {
         let farthest = lo.abs().max(hi.abs()).max_element();
         let cell = power_above(half, bits as i32).max(power_above(farthest, DOUBLE_BITS));
         let near = (NEAR * (f64::from(bits) - f64::from(MAX_GRID_BITS)).exp2()).max(NEAR_ON_COARSE);
-        Self { cell, origin: (middle / cell).round() * cell, near }
+        Self { cell, origin: (middle / cell).round() * cell, near, farthest_near: farthest_near(bits) }
     }
 
     /// A grid about the origin whose every node is a number of `bits` binary digits.
     pub(super) fn about_zero(farthest: f64, bits: u32) -> Self {
-        Self { cell: power_above(farthest, bits as i32), origin: DVec3::ZERO, near: NEAR_ON_COARSE }
+        let cell = power_above(farthest, bits as i32);
+        Self { cell, origin: DVec3::ZERO, near: NEAR_ON_COARSE, farthest_near: farthest_near(bits) }
     }
 
     /// The nearest node of the grid.
@@ -55,6 +60,11 @@ impl Grid {
     pub(super) fn place(&self, p: DVec3) -> DVec3 {
         self.origin + p * self.cell
     }
+}
+
+/// A millionth of the size, or some cells of a coarse grid.
+fn farthest_near(bits: u32) -> f64 {
+    (f64::from(bits) - 20.0).exp2().max(FARTHEST_ON_COARSE)
 }
 
 /// The least power of two not below `length` · 2^−`bits`; of a vanishing length the least normal number.

@@ -145,8 +145,8 @@ fn merge_on(
         faces.extend(model.faces.iter().map(|f| f.map(|v| v + first)));
         first_faces.push(faces.len() as u32);
     }
-    let mut complex = Complex::new(positions.into_iter(), &faces, cancel);
-    let effort = rounds::resolve(&mut complex, grid.near, options.cancelled)?;
+    let complex = || Complex::new(positions.iter().copied(), &faces, cancel);
+    let (complex, effort) = rounds::resolve(complex, &grid, options.cancelled)?;
     Ok(finished(&complex, grid, first_faces, effort.rounds))
 }
 
@@ -273,8 +273,8 @@ fn merge_nodes(
     grid: Grid,
     options: &MergeOptions<'_>,
 ) -> Result<select::Boundary, MergeError> {
-    let mut complex = Complex::new(chain.positions.into_iter(), &chain.faces, true);
-    let effort = rounds::resolve(&mut complex, grid.near, options.cancelled)?;
+    let complex = || Complex::new(chain.positions.iter().copied(), &chain.faces, true);
+    let (complex, effort) = rounds::resolve(complex, &grid, options.cancelled)?;
     let merged = finished(&complex, grid, vec![0, chain.faces.len() as u32], effort.rounds);
     let regions = merged.regions()?;
     let (mut boundary, _) = merged.boundary(&regions, |w| w[0] > 0);

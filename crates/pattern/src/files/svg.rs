@@ -93,7 +93,7 @@ pub fn to_svg(pattern: &Pattern, options: &SvgOptions) -> String {
     out
 }
 
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     text.chars()
         .filter(|c| !c.is_control())
         .map(|c| match c {

@@ -5,7 +5,7 @@ use mesh_kernel::TriMesh;
 use mesh_kernel::query::{Adjacency, Crossings};
 
 use super::DeflateError;
-use crate::weld::weld;
+use crate::cleaning::weld;
 
 /// A face whose height is less than this share of its longest side has no normal of its own.
 const FLAT: f64 = 1e-9;

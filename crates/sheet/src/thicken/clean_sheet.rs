@@ -5,10 +5,7 @@ use glam::DVec3;
 use mesh_kernel::TriMesh;
 
 use super::{MAX_THICKNESS, ThickenError, ThickenOptions, Thickness};
-use crate::weld::weld;
-
-/// A face whose height is less than this share of its longest side has no area: its normal is rounding.
-const FLAT: f64 = 1e-12;
+use crate::cleaning::{FLAT, doubles, patch_of_faces, weld};
 
 /// A sheet without coincident nodes and without faces that have no area or come twice.
 #[derive(Debug)]
@@ -86,19 +83,6 @@ impl CleanSheet {
     }
 }
 
-/// The group of every face; faces in none are one more patch after the last group.
-fn patch_of_faces(sheet: &TriMesh) -> Vec<u32> {
-    let mut patches = vec![sheet.groups.len() as u32; sheet.faces.len()];
-    for (g, group) in sheet.groups.iter().enumerate() {
-        for f in group.faces.clone() {
-            if let Some(patch) = patches.get_mut(f as usize) {
-                *patch = g as u32;
-            }
-        }
-    }
-    patches
-}
-
 fn check_thickness(
     sheet: &TriMesh,
     patches: &[u32],
@@ -126,24 +110,4 @@ fn check_thickness(
         }
     }
     Ok(())
-}
-
-/// Whether another face before it has the same three nodes.
-fn doubles(sheet: &TriMesh, node: &[u32]) -> Vec<bool> {
-    let mut keys: Vec<([u32; 3], u32)> = sheet
-        .faces
-        .iter()
-        .zip(0..)
-        .map(|(corners, f)| {
-            let mut key = corners.map(|v| node[v as usize]);
-            key.sort_unstable();
-            (key, f)
-        })
-        .collect();
-    keys.sort_unstable();
-    let mut doubled = vec![false; keys.len()];
-    for pair in keys.windows(2) {
-        doubled[pair[1].1 as usize] = pair[0].0 == pair[1].0;
-    }
-    doubled
 }

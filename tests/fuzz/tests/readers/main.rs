@@ -6,6 +6,7 @@ mod designs;
 mod finds;
 mod journals;
 mod meshes;
+mod scripts;
 
 use fuzz::{CountingAllocator, Reader, fuzz};
 
