@@ -575,6 +575,9 @@ pub(crate) struct Unfold {
     /// How much deeper than the bend reliefs are, in millimetres. Default: half the thickness.
     #[arg(long, value_name = "MM", value_parser = not_negative, allow_hyphen_values = true)]
     pub(crate) relief_depth: Option<f64>,
+    /// The file is a thin solid, not a sheet: the middle of its walls is unfolded, with their thickness.
+    #[arg(long, conflicts_with_all = ["thickness", "layer"])]
+    pub(crate) from_solid: bool,
     /// Unit of the sheet. Default: metres for GLB, else millimetres.
     #[arg(long, value_enum)]
     pub(crate) unit: Option<Unit>,
