@@ -208,7 +208,8 @@ fn allowances_change_the_plate_as_the_tables_say() {
     assert!((flat - (50.0 - 6.0 + quarter * 2.88)).abs() < 1e-9, "{flat}");
     // The same part as a solid.
     let solid = folder.join("solid.stl");
-    toile(&["thicken", word(&fold), "-o", word(&solid), "--thickness", "2", "--corners", "mitre"]).succeeded();
+    toile(&["thicken", word(&fold), "-o", word(&solid), "--thickness", "2", "--corners", "mitre"])
+        .succeeded();
     let out = folder.join("solid.dxf");
     let words = ["unfold", word(&solid), "-o", word(&out), "--from-solid", "--json"];
     let report = toile(&words).succeeded().json();

@@ -95,6 +95,7 @@ pub(super) fn assemble(
     let first_curved = sheet.faces.len();
     add_curved(&mut sheet, solid, segments, &plan, &seams);
     contract(&mut sheet, first_curved, SHORT * thickness);
+    cancel_doubles(&mut sheet);
     sheet.without_unused_nodes()
 }
 
@@ -211,22 +212,20 @@ fn contract(sheet: &mut Sheet, first: usize, short: f64) {
         let [a, b, c] = *face;
         stays.push(a != b && b != c && c != a);
     }
-    let first = first - stays[..first].iter().filter(|s| !**s).count();
     let mut keep = stays.iter();
     sheet.faces.retain(|_| keep.next().copied().unwrap_or(true));
     let mut keep = stays.iter();
     sheet.sources.retain(|_| keep.next().copied().unwrap_or(true));
-    cancel_doubles(sheet, first);
 }
 
-/// Two faces on the same nodes, left where slivers closed, cancel each other if they face opposite ways; else one stays.
-fn cancel_doubles(sheet: &mut Sheet, first: usize) {
+/// Two faces on the same nodes, left where slivers closed or a strip had no width, cancel each other if they face opposite ways; else one stays.
+fn cancel_doubles(sheet: &mut Sheet) {
     let sorted = |face: &[u32; 3]| {
         let mut nodes = *face;
         nodes.sort_unstable();
         nodes
     };
-    let mut order: Vec<usize> = (first..sheet.faces.len()).collect();
+    let mut order: Vec<usize> = (0..sheet.faces.len()).collect();
     order.sort_by_key(|f| (sorted(&sheet.faces[*f]), *f));
     let mut gone = vec![false; sheet.faces.len()];
     for run in order.chunk_by(|f, g| sorted(&sheet.faces[*f]) == sorted(&sheet.faces[*g])) {
