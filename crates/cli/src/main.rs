@@ -50,6 +50,7 @@ fn run(command: &Command, speech: &Speech) -> Result<(), Failure> {
         Command::Info(words) => commands::info::run(words, speech),
         Command::Flatten(words) => commands::flatten::run(words, speech),
         Command::Thicken(words) => commands::thicken::run(words, speech),
+        Command::Deflate(words) => commands::deflate::run(words, speech),
         Command::Model(words) => commands::model::run(words, speech),
         Command::Bends(words) => commands::bends::run(words, speech),
         Command::Unfold(words) => commands::unfold::run(words, speech),

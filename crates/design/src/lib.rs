@@ -9,11 +9,13 @@
 //! * [`pictures`]: front, back, pattern, features, any model;
 //! * [`model_info`]: what a model holds;
 //! * [`mod@thicken`]: a sheet to a solid's file;
+//! * [`mod@deflate`]: a solid to its mid-surface's file;
 //! * [`sheet_metal`]: bends, welds and flat plates of a sheet;
 //! * [`units`]: what a file's numbers mean;
 //! * [`output`]: files made in memory, then written.
 
 pub mod batch;
+pub mod deflate;
 pub mod document;
 pub mod draft;
 mod fingerprint;

@@ -62,13 +62,14 @@ pub struct Designer {
 impl Designer {
     /// A designer at work on `draft`; `path` is the file that it came from.
     pub fn new(draft: Draft, path: Option<PathBuf>) -> Self {
+        let surface = draft.template.surfaces.keys().next().cloned().unwrap_or_else(|| "surface".to_owned());
         Self {
             history: History::new(draft),
             path: path.map_or_else(|| "design.toile".to_owned(), |p| p.display().to_string()),
             tool: Tool::Select,
             selected: Vec::new(),
             message: String::new(),
-            surface: "left_front".to_owned(),
+            surface,
             garment: None,
             builder: Builder::start(),
             palette: None,

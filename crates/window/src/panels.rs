@@ -68,7 +68,16 @@ impl Designer {
                 }
                 let label = ui.label("File");
                 ui.text_edit_singleline(&mut self.path).labelled_by(label.id);
-                egui::widgets::global_theme_preference_buttons(ui);
+                let chosen = ui.ctx().options(|o| o.theme_preference);
+                for (name, theme) in [
+                    ("light", egui::ThemePreference::Light),
+                    ("dark", egui::ThemePreference::Dark),
+                    ("as the system", egui::ThemePreference::System),
+                ] {
+                    if ui.selectable_label(chosen == theme, name).clicked() {
+                        ui.ctx().set_theme(theme);
+                    }
+                }
             });
         });
         egui::Panel::bottom("status").show(ui, |ui| {

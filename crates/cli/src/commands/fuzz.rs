@@ -49,6 +49,7 @@ fn words() {
         "toile features b.obj -o f.json --picture f.png",
         "toile check m.obj",
         "toile thicken s.obj --thickness 2 --side both --corners mitre -o s.stl --patch-thickness a=3 --mitre-limit 3",
+        "toile deflate s.stl --max-thickness 3 --max-draft 5 --simplify 2 --keep 1 -o m.obj --inp m.inp --edge-length 2",
         "toile model s.json -o s.obj",
         "toile bends s.obj --facets planes --unit cm --json",
         "toile unfold s.obj -o s.dxf --thickness 2 --radius 3 --k-factor 0.42 --layer inside --relief round --relief-width 3",
@@ -74,6 +75,11 @@ fn words() {
                 vec![3, width as usize, height as usize]
             }
             Command::Form(_) => vec![4],
+            Command::Deflate(words) => {
+                let lengths = words.max_thickness.iter().chain(&words.simplify).chain(&words.edge_length);
+                assert!(lengths.clone().all(|t| t.is_finite() && *t > 0.0));
+                vec![7, lengths.count(), words.keep.len()]
+            }
             Command::Thicken(words) => {
                 let named = words.patch_thickness.iter().map(|n| n.1);
                 let all = named.chain(words.thickness).chain(words.chord).chain(words.mitre_limit);

@@ -3,6 +3,7 @@
 pub(crate) mod batch;
 pub(crate) mod bends;
 pub(crate) mod check;
+pub(crate) mod deflate;
 pub(crate) mod features;
 pub(crate) mod flatten;
 pub(crate) mod form;

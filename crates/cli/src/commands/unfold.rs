@@ -2,14 +2,17 @@
 
 use std::time::Instant;
 
-use design::sheet_metal::{DrawingFormat, SheetReading, UnfoldFileReport, unfold};
+use design::sheet_metal::{DrawingFormat, SheetReading, UnfoldFileReport, mid_surface, unfold};
+use mesh_kernel::TriMesh;
+use mesh_kernel::files::Format;
+use sheet::deflate::Nobody;
 use sheet::facets::FacetRule;
 use sheet::unfold::{Effort, Metal, Reference, Relief, ReliefShape, UnfoldOptions};
 
-use super::{extension, file_name, read_sheet, unit_of_sheet, write};
+use super::{extension, file_name, read_mesh, read_sheet, unit_of_sheet, write};
 use crate::failure::Failure;
 use crate::speech::{Speech, table};
-use crate::words::{Layer, Reliefs, Unfold};
+use crate::words::{Layer, Reliefs, Unfold, Unit};
 
 pub(crate) fn run(words: &Unfold, speech: &Speech) -> Result<(), Failure> {
     let started = Instant::now();
@@ -19,8 +22,7 @@ pub(crate) fn run(words: &Unfold, speech: &Speech) -> Result<(), Failure> {
         _ => return Err(Failure::words("the drawing's name must end in .dxf or .svg")),
     };
     speech.step("reading");
-    let sheet = read_sheet(&words.sheet)?;
-    let thickness = words.thickness.unwrap_or(0.0);
+    let (sheet, thickness, unit) = sheet_of(words, speech)?;
     let options = UnfoldOptions {
         metal: Metal {
             thickness,
@@ -44,10 +46,7 @@ pub(crate) fn run(words: &Unfold, speech: &Speech) -> Result<(), Failure> {
         effort: Effort::default(),
         gap: 10.0,
     };
-    let reading = SheetReading {
-        unit: unit_of_sheet(words.unit, &words.sheet, &sheet, thickness),
-        rule: FacetRule::Planes,
-    };
+    let reading = SheetReading { unit, rule: FacetRule::Planes };
     speech.step("looking for a flat sheet that does not lie on itself");
     let made = unfold(&sheet, &reading, &options, format, &file_name(&words.sheet));
     let mut made = made.map_err(|e| Failure::from(e).about(&words.sheet))?;
@@ -59,6 +58,23 @@ pub(crate) fn run(words: &Unfold, speech: &Speech) -> Result<(), Failure> {
         speech.warn(warning);
     }
     speech.report(&made.report, || summary(&made.report))
+}
+
+/// The sheet, its thickness and its unit; of a solid all three are found.
+fn sheet_of(words: &Unfold, speech: &Speech) -> Result<(TriMesh, f64, f64), Failure> {
+    if !words.from_solid {
+        let sheet = read_sheet(&words.sheet)?;
+        let thickness = words.thickness.unwrap_or(0.0);
+        let unit = unit_of_sheet(words.unit, &words.sheet, &sheet, thickness);
+        return Ok((sheet, thickness, unit));
+    }
+    let solid = read_mesh(&words.sheet)?;
+    let is_glb = Format::of_path(&words.sheet) == Some(Format::Glb);
+    let unit = words.unit.map_or(if is_glb { 1000.0 } else { 1.0 }, Unit::millimetres);
+    speech.step("looking for the middle of its walls");
+    let made = mid_surface(&solid, unit, &Nobody);
+    let (sheet, thickness) = made.map_err(|e| Failure::from(e).about(&words.sheet))?;
+    Ok((sheet, thickness, 1.0))
 }
 
 fn summary(r: &UnfoldFileReport) -> String {

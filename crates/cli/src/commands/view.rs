@@ -28,9 +28,19 @@ pub(crate) fn run(words: &View) -> Result<(), Failure> {
         let positions = mesh.positions.iter().map(|p| p.to_array()).collect();
         draft.body = Arc::new(BodySource::Mesh(Mesh { file: file_name(path), positions, faces: mesh.faces }));
     }
-    window::run(window::Designer::new(draft, file)).map_err(|e| {
-        Failure::new(format!("cannot open the window: {e}")).remedy(
+    let refused = |why: String| {
+        Failure::new(format!("cannot open the window: {why}")).remedy(
             "`toile view` needs a display with OpenGL; `toile regenerate` and `toile render` need none",
         )
-    })
+    };
+    if is_without_display() {
+        return Err(refused("there is no display (neither DISPLAY nor WAYLAND_DISPLAY is set)".to_owned()));
+    }
+    window::run(window::Designer::new(draft, file)).map_err(|e| refused(e.to_string()))
+}
+
+/// Where windows need a display server, whether none is named.
+fn is_without_display() -> bool {
+    let is_unset = |name: &str| std::env::var_os(name).is_none_or(|v| v.is_empty());
+    cfg!(target_os = "linux") && ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"].iter().all(|v| is_unset(v))
 }

@@ -9,6 +9,7 @@ mod batch;
 mod bodies;
 mod call;
 mod damaged;
+mod deflate;
 mod fixtures;
 mod forms;
 mod models;

@@ -206,6 +206,18 @@ fn allowances_change_the_plate_as_the_tables_say() {
     assert!((flat - (50.0 - 10.0 + quarter * 3.8)).abs() < 1e-9, "{flat}");
     let (flat, _) = size(&["--thickness", "2"]);
     assert!((flat - (50.0 - 6.0 + quarter * 2.88)).abs() < 1e-9, "{flat}");
+    // The same part as a solid.
+    let solid = folder.join("solid.stl");
+    toile(&["thicken", word(&fold), "-o", word(&solid), "--thickness", "2", "--corners", "mitre"])
+        .succeeded();
+    let out = folder.join("solid.dxf");
+    let words = ["unfold", word(&solid), "-o", word(&out), "--from-solid", "--json"];
+    let report = toile(&words).succeeded().json();
+    let plates = report["plates"].as_array().unwrap();
+    let size = plates[0]["size"].as_array().unwrap().iter().map(number).fold(0.0, f64::max);
+    assert!(plates.len() == 1 && (size - flat).abs() < 1e-4, "{size} {flat}");
+    let words = ["unfold", word(&fold), "-o", word(&out), "--from-solid"];
+    toile(&words).refused(1, "");
     let out = folder.join("no.dxf");
     let words = ["unfold", word(&fold), "-o", word(&out), "--thickness", "2", "--radius", "40"];
     toile(&words).refused(1, "too small for its bends");

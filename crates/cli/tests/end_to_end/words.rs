@@ -4,7 +4,7 @@ use crate::call::{Folder, toile, word};
 use crate::fixtures::{dress, form};
 
 /// All commands.
-const COMMANDS: [&str; 12] = [
+const COMMANDS: [&str; 13] = [
     "regenerate",
     "batch",
     "features",
@@ -13,6 +13,7 @@ const COMMANDS: [&str; 12] = [
     "info",
     "flatten",
     "thicken",
+    "deflate",
     "model",
     "bends",
     "unfold",
@@ -33,7 +34,7 @@ fn help_explains_every_command() {
 
 #[test]
 fn unknown_and_missing_words_are_refused() {
-    let calls: [&[&str]; 45] = [
+    let calls: [&[&str]; 50] = [
         &["sew"],
         &["regenerate"],
         &["regenerate", "t.json"],
@@ -54,6 +55,11 @@ fn unknown_and_missing_words_are_refused() {
         &["check"],
         &["info", "--volume", "a.obj"],
         &["flatten", "a.obj"],
+        &["deflate", "a.obj"],
+        &["deflate", "-o", "b.obj"],
+        &["deflate", "a.obj", "-o", "b.obj", "--simplify", "0"],
+        &["deflate", "a.obj", "-o", "b.obj", "--keep", "first"],
+        &["deflate", "a.obj", "-o", "b.obj", "--elements", "s8"],
         &["thicken", "a.obj", "--thickness", "2"],
         &["thicken", "a.obj", "-o", "b.obj"],
         &["thicken", "--thickness", "2", "-o", "b.obj"],
@@ -108,6 +114,8 @@ fn words_that_only_the_program_can_judge_are_refused_too() {
         vec!["form", "--bust", "90", "-o", "a.docx"],
         vec!["thicken", form, "--thickness", "2", "-o", "a.docx"],
         vec!["thicken", form, "--thickness", "2", "-o", "a"],
+        vec!["deflate", form, "-o", "a.docx"],
+        vec!["deflate", form, "-o", "a.obj", "--vtk", "a.vtu"],
         vec!["flatten", form, "-o", "a.svg", "--cut", "1-x"],
         vec!["flatten", form, "-o", "a.svg", "--cut", "0-1"],
     ];

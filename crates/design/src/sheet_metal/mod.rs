@@ -4,9 +4,11 @@
 
 mod bends;
 mod drawing;
+mod solid;
 mod unfold;
 
 pub use bends::{AssignmentReport, BendReport, BendsFileReport, LineReport, WeldReport, bends};
+pub use solid::{SolidError, mid_surface};
 pub use unfold::{PlateReport, UnfoldFileReport, UnfoldedFile, unfold};
 
 use mesh_kernel::TriMesh;

@@ -5,6 +5,7 @@
 //! * [`ClosestPoint`]: the nearest point of a mesh;
 //! * [`SignedDistance`]: the same with a side, right on meshes with holes; [`WindingNumber`];
 //! * [`Crossings`]: faces that cross faces;
+//! * [`RayCaster`]: the first face that a ray meets;
 //! * [`SectionStack`], [`plane_section`]: cuts with planes; [`tape_length`]: what a tape measure reads on one.
 //!
 //! Each query is a struct that is prepared once for a mesh and then asked from any number of threads; answers do not
@@ -32,6 +33,7 @@ mod closest;
 mod crossing;
 mod geodesic;
 mod hull;
+mod ray;
 mod section;
 mod signed_distance;
 mod strip;
@@ -45,6 +47,7 @@ pub use closest::{Closest, ClosestPoint};
 pub use crossing::Crossings;
 pub use geodesic::{Geodesics, SurfacePath, shortest_path};
 pub use hull::{convex_hull_in_plane, tape_length};
+pub use ray::{RayCaster, RayHit};
 pub use section::{SectionLoop, SectionStack, plane_section};
 pub use signed_distance::{Signed, SignedDistance};
 pub(crate) use triangle_pair::faces_meet_beyond_shared;

@@ -1,0 +1,324 @@
+//! Extraction and stitching: the kept walls at their middles become one mesh with shared nodes (Sheen et al. 2008,
+//! section 7, and what the paper leaves to others).
+
+use std::collections::BTreeSet;
+
+use glam::DVec3;
+
+use super::DeflateOptions;
+use super::fill::{Outline, fill};
+use super::middle::Middles;
+use super::plan::{Plan, border, plan};
+use super::plane::Plane;
+use super::seams::{Merged, Nearness, Seams};
+use super::segments::Segments;
+use super::solid::Solid;
+use super::walls::Walls;
+
+/// Edges of curved pieces shorter than this share of the wall's thickness close when they got that short by moving.
+const CLOSED: f64 = 0.02;
+/// Edges of curved pieces shorter than this share of the thickness are left over from closing and close too.
+const SHORT: f64 = 0.015;
+/// Borders of curved pieces that are this near, over the thickness, are one.
+const CHORDS: f64 = 0.25;
+/// What is exact agrees to this share of the solid's size.
+const ROUNDING: f64 = 1e-6;
+/// Nodes inside plane pieces keep this share of the thickness away from edges.
+const MARGIN: f64 = 0.4;
+
+/// What a face of the mid-surface came from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Source {
+    /// A plane, by its number among the fills.
+    Plane(u32),
+    /// A face of a curved wall of the solid.
+    Facet(u32),
+}
+
+/// A mid-surface as it is being made.
+#[derive(Debug, Default)]
+pub(super) struct Sheet {
+    pub(super) positions: Vec<DVec3>,
+    pub(super) faces: Vec<[u32; 3]>,
+    /// Of every face.
+    pub(super) sources: Vec<Source>,
+    /// The planes that were filled, and whether each is a step between two thicknesses.
+    pub(super) planes: Vec<(Plane, bool)>,
+    /// Groups of the solid in every filled plane.
+    pub(super) groups: Vec<Vec<u32>>,
+    /// Edges of outlines that were lost.
+    pub(super) lost: usize,
+}
+
+/// Where the solid's nodes go.
+pub(super) struct Moved {
+    pub(super) positions: Vec<DVec3>,
+    /// Whether a node lies beside facets and is only as exact as they are.
+    pub(super) soft: Vec<bool>,
+}
+
+/// Makes the mid-surface. `gone`: groups that it is made without, as if walls went on below. O(n log n).
+#[allow(clippy::too_many_arguments, reason = "one call, all of them what was found before")]
+pub(super) fn assemble(
+    solid: &Solid,
+    segments: &Segments,
+    walls: &Walls,
+    middles: &Middles,
+    gone: &[bool],
+    kept: &[bool],
+    moved: &Moved,
+    options: &DeflateOptions,
+) -> Sheet {
+    let Moved { positions: moved, soft } = moved;
+    let thickness = mean_thickness(walls);
+    let near = Nearness { rounding: ROUNDING * solid.size, chords: CHORDS * thickness };
+    let plan = plan(solid, segments, walls, middles, gone, kept, moved, options);
+    let merged = closed_edges(solid, segments, &plan, moved, CLOSED * thickness);
+    let mut borders: Vec<([u32; 2], u32)> = Vec::new();
+    for (k, piece) in (0..).zip(&plan.planes) {
+        for (g, _) in &piece.groups {
+            borders.extend(border(solid, segments, gone, *g).map(|e| (e, k)));
+        }
+    }
+    let first_curved = plan.planes.len() as u32;
+    for (k, g) in (first_curved..).zip(&plan.curved) {
+        borders.extend(border(solid, segments, gone, *g).map(|e| (e, k)));
+    }
+    let mut seams = Seams::new(moved.clone(), merged, &borders, soft, near);
+    let length_of = |k: u32| {
+        let own = plan.planes.get(k as usize).and_then(|piece| piece.edge_length);
+        own.into_iter().chain(options.edge_length).fold(f64::INFINITY, f64::min)
+    };
+    seams.refine(length_of);
+    let mut sheet = Sheet { positions: seams.positions.clone(), ..Sheet::default() };
+    add_planes(&mut sheet, solid, segments, gone, &plan, &seams, &borders, options, MARGIN * thickness);
+    let first_curved = sheet.faces.len();
+    add_curved(&mut sheet, solid, segments, &plan, &seams);
+    contract(&mut sheet, first_curved, SHORT * thickness);
+    cancel_doubles(&mut sheet);
+    sheet.without_unused_nodes()
+}
+
+fn mean_thickness(walls: &Walls) -> f64 {
+    let area: f64 = walls.pairs.iter().map(|p| p.area).sum();
+    walls.pairs.iter().map(|p| p.area * p.thickness).sum::<f64>() / area.max(f64::MIN_POSITIVE)
+}
+
+/// Edges of curved pieces that got very short close.
+fn closed_edges(solid: &Solid, segments: &Segments, plan: &Plan, moved: &[DVec3], short: f64) -> Merged {
+    let mut merged = Merged::new(moved.len());
+    for &g in &plan.curved {
+        for &f in &segments.group(g).faces {
+            for h in 3 * f..3 * f + 3 {
+                let [a, b] = solid.adjacency.ends(h);
+                let before = solid.mesh.positions[a as usize].distance(solid.mesh.positions[b as usize]);
+                let after = moved[a as usize].distance(moved[b as usize]);
+                if after < short && after < 0.3 * before {
+                    merged.join(a, b);
+                }
+            }
+        }
+    }
+    merged
+}
+
+#[allow(clippy::too_many_arguments, reason = "one call, all of them what the piece is made of")]
+fn add_planes(
+    sheet: &mut Sheet,
+    solid: &Solid,
+    segments: &Segments,
+    gone: &[bool],
+    plan: &Plan,
+    seams: &Seams,
+    borders: &[([u32; 2], u32)],
+    options: &DeflateOptions,
+    margin: f64,
+) {
+    let rounding = ROUNDING * solid.size;
+    let mut all: Vec<[u32; 2]> = borders
+        .iter()
+        .flat_map(|([a, b], _)| {
+            let path = seams.path(*a, *b);
+            path.windows(2).map(|w| [w[0].min(w[1]), w[0].max(w[1])]).collect::<Vec<_>>()
+        })
+        .collect();
+    all.sort_unstable();
+    all.dedup();
+    for piece in &plan.planes {
+        let mut outline = Outline { plane: piece.plane, edges: vec![], lines: vec![], inside: vec![] };
+        let mut on_border: BTreeSet<u32> = BTreeSet::new();
+        for (g, same) in &piece.groups {
+            for [a, b] in border(solid, segments, gone, *g) {
+                let path = if *same { seams.path(a, b) } else { seams.path(b, a) };
+                on_border.extend(&path);
+                outline.edges.extend(path.windows(2).map(|w| [w[0], w[1]]));
+            }
+        }
+        let on = |v: u32| piece.plane.height(sheet.positions[v as usize]).abs() < rounding;
+        outline.lines = all.iter().copied().filter(|[a, b]| on(*a) && on(*b)).collect();
+        let length = piece.edge_length.into_iter().chain(options.edge_length).min_by(f64::total_cmp);
+        if length.is_none() && !piece.is_step {
+            let near = Near::new(&outline, &sheet.positions, margin);
+            let mut inside: BTreeSet<u32> = BTreeSet::new();
+            for (g, _) in &piece.groups {
+                let faces = &segments.group(*g).faces;
+                inside.extend(faces.iter().flat_map(|f| solid.mesh.faces[*f as usize]));
+            }
+            outline.inside = inside
+                .into_iter()
+                .filter(|v| seams.merged.find(*v) == *v && !on_border.contains(v))
+                .filter(|v| !near.is_near(sheet.positions[*v as usize]))
+                .collect();
+        }
+        let number = sheet.planes.len() as u32;
+        let filled = fill(&outline, &sheet.positions, length);
+        sheet.positions.extend(filled.added);
+        sheet.sources.extend(filled.faces.iter().map(|_| Source::Plane(number)));
+        sheet.faces.extend(filled.faces);
+        sheet.lost += filled.lost;
+        sheet.planes.push((piece.plane, piece.is_step));
+        sheet.groups.push(piece.groups.iter().map(|g| g.0).collect());
+    }
+}
+
+fn add_curved(sheet: &mut Sheet, solid: &Solid, segments: &Segments, plan: &Plan, seams: &Seams) {
+    for &g in &plan.curved {
+        for &f in &segments.group(g).faces {
+            let sides = [0, 1, 2].map(|k| {
+                let [a, b] = solid.adjacency.ends(3 * f + k);
+                seams.path(a, b)
+            });
+            for face in cut(sides) {
+                sheet.faces.push(face);
+                sheet.sources.push(Source::Facet(f));
+            }
+        }
+    }
+}
+
+/// Makes one of the ends of very short edges of curved pieces.
+fn contract(sheet: &mut Sheet, first: usize, short: f64) {
+    let mut merged = Merged::new(sheet.positions.len());
+    for &[a, b, c] in &sheet.faces[first..] {
+        for [p, q] in [[a, b], [b, c], [c, a]] {
+            if sheet.positions[p as usize].distance(sheet.positions[q as usize]) < short {
+                merged.join(p, q);
+            }
+        }
+    }
+    let mut stays = Vec::with_capacity(sheet.faces.len());
+    for face in &mut sheet.faces {
+        *face = face.map(|v| merged.find(v));
+        let [a, b, c] = *face;
+        stays.push(a != b && b != c && c != a);
+    }
+    let mut keep = stays.iter();
+    sheet.faces.retain(|_| keep.next().copied().unwrap_or(true));
+    let mut keep = stays.iter();
+    sheet.sources.retain(|_| keep.next().copied().unwrap_or(true));
+}
+
+/// Two faces on the same nodes, left where slivers closed or a strip had no width, cancel each other if they face opposite ways; else one stays.
+fn cancel_doubles(sheet: &mut Sheet) {
+    let sorted = |face: &[u32; 3]| {
+        let mut nodes = *face;
+        nodes.sort_unstable();
+        nodes
+    };
+    let mut order: Vec<usize> = (0..sheet.faces.len()).collect();
+    order.sort_by_key(|f| (sorted(&sheet.faces[*f]), *f));
+    let mut gone = vec![false; sheet.faces.len()];
+    for run in order.chunk_by(|f, g| sorted(&sheet.faces[*f]) == sorted(&sheet.faces[*g])) {
+        let is_even = |f: &usize| {
+            let [a, b, c] = sheet.faces[*f];
+            [[a, b, c], [b, c, a], [c, a, b]].contains(&sorted(&sheet.faces[*f]))
+        };
+        let even: Vec<usize> = run.iter().copied().filter(is_even).collect();
+        let odd: Vec<usize> = run.iter().copied().filter(|f| !is_even(f)).collect();
+        let pairs = even.len().min(odd.len());
+        let left = usize::from(even.len() != odd.len());
+        for list in [even, odd] {
+            let keep = if list.len() > pairs { left } else { 0 };
+            list.iter().skip(keep).for_each(|f| gone[*f] = true);
+        }
+    }
+    let mut stays = gone.iter().map(|g| !g);
+    sheet.faces.retain(|_| stays.next().unwrap_or(true));
+    let mut stays = gone.iter().map(|g| !g);
+    sheet.sources.retain(|_| stays.next().unwrap_or(true));
+}
+
+/// A face whose sides have nodes on them, as triangles; nothing where two corners are one.
+fn cut(sides: [Vec<u32>; 3]) -> Vec<[u32; 3]> {
+    let corners = [sides[0][0], sides[1][0], sides[2][0]];
+    let [a, b, c] = corners;
+    if a == b || b == c || c == a {
+        return Vec::new();
+    }
+    let mut done = Vec::new();
+    // The first side is cut from the opposite corner; the two others are sides of the first and last part.
+    let first: Vec<[u32; 3]> = sides[0].windows(2).map(|w| [w[0], w[1], c]).collect();
+    let last = first.len() - 1;
+    for (k, [p, q, r]) in first.into_iter().enumerate() {
+        let second = if k == last { sides[1].clone() } else { vec![q, r] };
+        let third = if k == 0 { sides[2].clone() } else { vec![r, p] };
+        // Part by part along the second side, seen from p; the last part holds the third side.
+        let parts: Vec<[u32; 3]> = second.windows(2).map(|w| [p, w[0], w[1]]).collect();
+        let (end, whole) = (parts[parts.len() - 1], &parts[..parts.len() - 1]);
+        done.extend_from_slice(whole);
+        done.extend(third.windows(2).map(|w| [end[1], w[0], w[1]]));
+    }
+    done.retain(|[a, b, c]| a != b && b != c && c != a);
+    done
+}
+
+/// Whether places are near to the edges of an outline: cells along the edges are marked.
+struct Near {
+    cell: f64,
+    frame: [DVec3; 2],
+    marked: BTreeSet<(i64, i64)>,
+}
+
+impl Near {
+    fn new(outline: &Outline, positions: &[DVec3], margin: f64) -> Self {
+        let mut near = Self { cell: margin, frame: outline.plane.frame(), marked: BTreeSet::new() };
+        for [a, b] in outline.edges.iter().chain(&outline.lines) {
+            let (p, q) = (positions[*a as usize], positions[*b as usize]);
+            let steps = (p.distance(q) / margin).ceil().clamp(1.0, 1e6) as u32;
+            for k in 0..=steps {
+                let (i, j) = near.key(p.lerp(q, f64::from(k) / f64::from(steps)));
+                for di in -1..=1 {
+                    near.marked.extend((-1..=1).map(|dj| (i + di, j + dj)));
+                }
+            }
+        }
+        near
+    }
+
+    fn key(&self, p: DVec3) -> (i64, i64) {
+        let [i, j] = self.frame.map(|axis| (p.dot(axis) / self.cell).floor() as i64);
+        (i, j)
+    }
+
+    fn is_near(&self, p: DVec3) -> bool {
+        self.marked.contains(&self.key(p))
+    }
+}
+
+impl Sheet {
+    fn without_unused_nodes(mut self) -> Self {
+        const NONE: u32 = u32::MAX;
+        let mut number = vec![NONE; self.positions.len()];
+        let mut positions = Vec::new();
+        for v in self.faces.iter_mut().flatten() {
+            let slot = &mut number[*v as usize];
+            if *slot == NONE {
+                *slot = positions.len() as u32;
+                positions.push(self.positions[*v as usize]);
+            }
+            *v = *slot;
+        }
+        self.positions = positions;
+        self
+    }
+}

@@ -1,0 +1,200 @@
+//! Fillets and rounds without a partner: what lies behind them.
+//!
+//! A fillet at the root of a rib is no wall and has no middle. Its nodes belong to the faces that it blends instead, as if it
+//! had been removed and the faces extended until they meet.
+
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BinaryHeap};
+
+use super::segments::Segments;
+use super::solid::Solid;
+use super::walls::Walls;
+
+/// A group that a node belongs to, with the node of that group which is nearest to it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Belongs {
+    /// The group.
+    pub(super) group: u32,
+    /// The node on it.
+    pub(super) at: u32,
+}
+
+/// Faces that lie farther away than this many times the nearest wall are not blended there.
+const AS_NEAR: f64 = 1.2;
+/// A blend that reaches from a wall to its partner over less than this many thicknesses is the wall's end.
+const END_WIDTH: f64 = 2.5;
+/// A chamfer folds from its walls by less than this, in radians.
+const OBLIQUE: f64 = 70.0 / 180.0 * std::f64::consts::PI;
+/// Cosine above which two faces are too parallel to meet.
+const PARALLEL: f64 = 0.94;
+
+/// For nodes of blends, what they belong to beside their own groups.
+#[derive(Debug, Default)]
+pub(super) struct Blends {
+    of_node: BTreeMap<u32, Vec<Belongs>>,
+    /// Whether each group is a blend.
+    pub(super) is_blend: Vec<bool>,
+}
+
+/// Distances are compared by their bits: they are not negative.
+type Reached = Reverse<(u64, u32, u32)>;
+
+impl Blends {
+    /// Finds what lies behind every curved group that is no wall. O(n log n) in nodes of blends, times their neighbours.
+    pub(super) fn new(solid: &Solid, segments: &Segments, walls: &Walls) -> Self {
+        let is_blend = |g: u32| {
+            let group = segments.group(g);
+            !walls.is_wall[g as usize] && (group.plane.is_none() || is_chamfer(solid, segments, walls, g))
+        };
+        let is_blend: Vec<bool> = (0..segments.groups.len() as u32).map(is_blend).collect();
+        let mut blends = Self { is_blend, ..Self::default() };
+        // Blends that run into each other are one: a fillet in facets, and its corners.
+        let mut seen = vec![false; segments.groups.len()];
+        for first in 0..segments.groups.len() as u32 {
+            if !blends.is_blend[first as usize] || seen[first as usize] {
+                continue;
+            }
+            let mut together = vec![first];
+            seen[first as usize] = true;
+            let mut at = 0;
+            while at < together.len() {
+                let sides = segments.group(together[at]).faces.iter().flat_map(|f| 3 * f..3 * f + 3);
+                for other in sides.map(|h| segments.of(solid.across(h))).collect::<Vec<_>>() {
+                    if blends.is_blend[other as usize] && !seen[other as usize] {
+                        seen[other as usize] = true;
+                        together.push(other);
+                    }
+                }
+                at += 1;
+            }
+            blends.look_behind(solid, segments, walls, &together);
+        }
+        blends
+    }
+
+    /// What a node belongs to beside the groups of its faces.
+    pub(super) fn behind(&self, node: u32) -> &[Belongs] {
+        self.of_node.get(&node).map_or(&[], Vec::as_slice)
+    }
+
+    fn look_behind(&mut self, solid: &Solid, segments: &Segments, walls: &Walls, together: &[u32]) {
+        // Nodes on the blend's border, by the group beyond.
+        let mut borders: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+        let mut links: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+        for f in together.iter().flat_map(|g| segments.group(*g).faces.iter().copied()) {
+            for h in 3 * f..3 * f + 3 {
+                let [a, b] = solid.adjacency.ends(h);
+                links.entry(a).or_default().push(b);
+                links.entry(b).or_default().push(a);
+                let other = segments.of(solid.across(h));
+                if !self.is_blend[other as usize] {
+                    borders.entry(other).or_default().extend([a, b]);
+                }
+            }
+        }
+        let mut found: BTreeMap<u32, Vec<(f64, Belongs)>> = BTreeMap::new();
+        for (&group, nodes) in &borders {
+            for (node, (_, at)) in nearest(solid, &links, nodes) {
+                // Along the edges tells which one; how far it is, the straight line.
+                let distance =
+                    solid.mesh.positions[node as usize].distance(solid.mesh.positions[at as usize]);
+                found.entry(node).or_default().push((distance, Belongs { group, at }));
+            }
+        }
+        for (node, mut reached) in found {
+            reached.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let here = reached.iter().filter(|r| r.0 == 0.0).map(|r| r.1);
+            let own: Vec<Belongs> = here.filter(|b| walls.is_wall[b.group as usize]).collect();
+            if own.is_empty() {
+                continue;
+            }
+            let facing = |b: &Belongs| group_normal_at(solid, segments, b);
+            let mine: Vec<_> = own.iter().map(facing).collect();
+            let meets = |b: &Belongs| {
+                let apart =
+                    own.iter().all(|o| o.group != b.group && !self.touch(segments, solid, o.group, b.group));
+                apart && mine.iter().all(|n| n.dot(facing(b)).abs() < PARALLEL)
+            };
+            let others: Vec<&(f64, Belongs)> = reached.iter().filter(|r| meets(&r.1)).collect();
+            let wall = others.iter().find(|r| walls.is_wall[r.1.group as usize]);
+            let within = wall.map_or(f64::INFINITY, |w| AS_NEAR * w.0);
+            // Between a wall and its partner, and nearer than anything else, is the end of both.
+            let is_end = |r: &(f64, Belongs)| {
+                own.iter().any(|o| {
+                    let mut partners = walls.partners(o.group).iter();
+                    let pair = partners.find(|p| p.partner == r.1.group);
+                    pair.is_some_and(|p| r.0 <= END_WIDTH * p.thickness && wall.is_none_or(|w| r.0 <= w.0))
+                })
+            };
+            if reached.iter().any(is_end) {
+                continue;
+            }
+            let end = others.iter().find(|r| !walls.is_wall[r.1.group as usize] && r.0 <= within);
+            let behind: Vec<Belongs> = wall.into_iter().chain(end).map(|r| r.1).collect();
+            if !behind.is_empty() {
+                self.of_node.entry(node).or_default().extend(behind);
+            }
+        }
+    }
+
+    /// Whether two groups have an edge in common.
+    fn touch(&self, segments: &Segments, solid: &Solid, g: u32, other: u32) -> bool {
+        let [small, large] = if segments.group(g).faces.len() < segments.group(other).faces.len() {
+            [g, other]
+        } else {
+            [other, g]
+        };
+        let sides = segments.group(small).faces.iter().flat_map(|f| 3 * f..3 * f + 3);
+        sides.into_iter().any(|h| segments.of(solid.across(h)) == large)
+    }
+}
+
+/// Whether a plane face without a partner is a narrow strip that turns from wall to wall in two steps.
+fn is_chamfer(solid: &Solid, segments: &Segments, walls: &Walls, g: u32) -> bool {
+    let group = segments.group(g);
+    let (mut outline, mut oblique) = (0.0, 0.0);
+    for h in group.faces.iter().flat_map(|f| 3 * f..3 * f + 3) {
+        let other = segments.of(solid.across(h));
+        if other == g {
+            continue;
+        }
+        let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
+        let length = a.distance(b);
+        outline += length;
+        let cosine = solid.fold_cosine(h);
+        if walls.is_wall[other as usize] && cosine > OBLIQUE.cos() {
+            oblique += length;
+        }
+    }
+    oblique > 0.5 * outline && 2.0 * group.area < walls.max_thickness * outline
+}
+
+/// The mean normal of the faces of a group about a node of it.
+fn group_normal_at(solid: &Solid, segments: &Segments, b: &Belongs) -> glam::DVec3 {
+    if let Some(plane) = segments.group(b.group).plane {
+        return plane.normal;
+    }
+    let faces = &segments.group(b.group).faces;
+    let about = faces.iter().filter(|f| solid.mesh.faces[**f as usize].contains(&b.at));
+    about.map(|f| solid.normals[*f as usize]).sum::<glam::DVec3>().normalize_or_zero()
+}
+
+/// For every node, the nearest of some nodes along the edges, and how far it is.
+fn nearest(solid: &Solid, links: &BTreeMap<u32, Vec<u32>>, from: &[u32]) -> BTreeMap<u32, (f64, u32)> {
+    let mut found: BTreeMap<u32, (f64, u32)> = BTreeMap::new();
+    let mut queue: BinaryHeap<Reached> = from.iter().map(|&v| Reverse((0, v, v))).collect();
+    while let Some(Reverse((bits, node, at))) = queue.pop() {
+        let distance = f64::from_bits(bits);
+        if found.contains_key(&node) {
+            continue;
+        }
+        found.insert(node, (distance, at));
+        for &next in links.get(&node).map_or(&[][..], Vec::as_slice) {
+            if !found.contains_key(&next) {
+                let step = solid.mesh.positions[node as usize].distance(solid.mesh.positions[next as usize]);
+                queue.push(Reverse(((distance + step).to_bits(), next, at)));
+            }
+        }
+    }
+    found
+}

@@ -1,0 +1,80 @@
+//! Why a solid could not be deflated.
+
+use glam::DVec3;
+
+use super::report::UnpairedFace;
+
+/// Why a solid could not be deflated. Lengths are millimetres.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum DeflateError {
+    /// There is nothing to deflate.
+    #[error("the solid has no faces with an area")]
+    Empty,
+    /// A coordinate is not a finite number.
+    #[error("node {node} has a coordinate that is no finite number")]
+    NotFinite {
+        /// The node.
+        node: u32,
+    },
+    /// An option is out of its range.
+    #[error("the option {option} is {value}, but must be {wanted}")]
+    OptionRange {
+        /// Its name.
+        option: &'static str,
+        /// What it was.
+        value: f64,
+        /// What it may be.
+        wanted: &'static str,
+    },
+    /// Some edges have one face only.
+    #[error("the solid is open: {edges} edges have one face only, the first at ({:.3}, {:.3}, {:.3}); close its holes first",
+        at.x, at.y, at.z)]
+    Open {
+        /// How many.
+        edges: usize,
+        /// The middle of the first.
+        at: DVec3,
+    },
+    /// Some edges have more than two faces, or two that are wound differently.
+    #[error("the solid is no clean skin: at {edges} edges faces are wound against each other or more than two meet, \
+        the first at ({:.3}, {:.3}, {:.3})", at.x, at.y, at.z)]
+    NotManifold {
+        /// How many.
+        edges: usize,
+        /// The middle of the first.
+        at: DVec3,
+    },
+    /// Faces cross.
+    #[error("the solid crosses itself: {pairs} pairs of faces have more in common than their nodes, \
+        the first at ({:.3}, {:.3}, {:.3})", at.x, at.y, at.z)]
+    SelfCrossing {
+        /// How many pairs.
+        pairs: usize,
+        /// The first pair, faces of the input.
+        faces: [u32; 2],
+        /// About where.
+        at: DVec3,
+    },
+    /// Most of the solid has no wall opposite to it.
+    #[error("the solid is not thin: only {:.0} % of its skin has a partner within {max_thickness:.3} mm; without one are \
+        {}", 100.0 * paired, named(unpaired))]
+    Bulky {
+        /// Share of the area that has a partner.
+        paired: f64,
+        /// The largest thickness that was looked for.
+        max_thickness: f64,
+        /// Faces without a partner, the largest first.
+        unpaired: Vec<UnpairedFace>,
+    },
+    /// The caller ended it.
+    #[error("cancelled")]
+    Cancelled,
+}
+
+/// The first few faces of many, for a message.
+fn named(faces: &[UnpairedFace]) -> String {
+    const SHOWN: usize = 6;
+    let shown: Vec<String> = faces.iter().take(SHOWN).map(ToString::to_string).collect();
+    let more = faces.len().saturating_sub(SHOWN);
+    shown.join(", ") + &if more > 0 { format!(" and {more} more") } else { String::new() }
+}

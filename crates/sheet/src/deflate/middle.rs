@@ -1,0 +1,268 @@
+//! The middles that faces are replaced by (Sheen et al. 2008, section 6.2): exact planes between plane walls, and
+//! planes beside the facets of curved ones.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::plane::{Plane, PlaneTable};
+use super::segments::Segments;
+use super::solid::Solid;
+use super::walls::Walls;
+
+/// A partner counts if it covers this share of a wall.
+const COUNTED: f64 = 0.02;
+/// A wall has an exact mid-plane if plane partners cover this share of what has a partner.
+const MOSTLY: f64 = 0.8;
+/// Cosine of the angle between middles that can be aligned.
+const ALIGNED: f64 = 0.999;
+/// Looks through the material at a corner begin this far from it towards the middle of the face.
+const INSET: f64 = 0.1;
+
+/// The middle of a wall at a corner of a face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Middle {
+    /// The plane that the corner moves to.
+    pub(super) plane: Plane,
+    /// Number of the exact plane, if it is one.
+    pub(super) exact: Option<u32>,
+    /// How thick the wall is there, in mm.
+    pub(super) thickness: f64,
+}
+
+/// The middles of all walls.
+#[derive(Debug)]
+pub(super) struct Middles {
+    /// Planes of plane groups.
+    pub(super) planes: PlaneTable,
+    /// Number of every group's plane.
+    pub(super) plane_of: Vec<Option<u32>>,
+    /// Planes halfway between two plane walls, by the groups of the pair; ordered. Each faces as the first group.
+    between: Vec<([u32; 2], Plane, u32)>,
+    /// The different mid-planes of every plane wall.
+    pub(super) of_group: Vec<Vec<Plane>>,
+    pub(super) mid_planes: PlaneTable,
+}
+
+impl Middles {
+    /// Finds the mid-planes. O(groups · planes).
+    pub(super) fn new(solid: &Solid, segments: &Segments, walls: &Walls) -> Self {
+        let centre = solid.mesh.bounds().map_or(DVec3::ZERO, |[lo, hi]| (lo + hi) / 2.0);
+        let (mut planes, mut mid_planes) =
+            (PlaneTable::new(solid.size, centre), PlaneTable::new(solid.size, centre));
+        let plane_of: Vec<Option<u32>> =
+            segments.groups.iter().map(|g| g.plane.map(|p| planes.number(p))).collect();
+        let mut between = Vec::new();
+        let mut of_group: Vec<Vec<Plane>> = vec![Vec::new(); segments.groups.len()];
+        for pair in &walls.pairs {
+            let of = |g: u32| plane_of[g as usize].map(|k| planes.plane(k));
+            let [Some(p), Some(q)] = [of(pair.group), of(pair.partner)] else { continue };
+            if pair.area < COUNTED * segments.group(pair.group).area {
+                continue;
+            }
+            let middle = p.middle(&q);
+            let canonical = if faces_up(middle.normal) { middle } else { middle.flipped() };
+            let number = mid_planes.number(canonical);
+            let shared = mid_planes.plane(number);
+            let plane = if shared.normal.dot(p.normal) > 0.0 { shared } else { shared.flipped() };
+            between.push(([pair.group, pair.partner], plane, number));
+            let own = &mut of_group[pair.group as usize];
+            if !own.contains(&plane) {
+                own.push(plane);
+            }
+        }
+        // A plane wall whose partner is mostly curved follows that one.
+        for (g, own) in (0u32..).zip(&mut of_group) {
+            let partners = walls.partners(g);
+            let flat: f64 =
+                partners.iter().filter(|p| plane_of[p.partner as usize].is_some()).map(|p| p.area).sum();
+            if flat < MOSTLY * partners.iter().map(|p| p.area).sum::<f64>() {
+                own.clear();
+            }
+        }
+        Self { planes, plane_of, between, of_group, mid_planes }
+    }
+
+    /// Where a step in thickness stands between two kept walls, moves the middle of the thinner one to that of the thicker.
+    pub(super) fn align_steps(&mut self, solid: &Solid, segments: &Segments, walls: &Walls, kept: &[bool]) {
+        for (g, group) in (0u32..).zip(&segments.groups) {
+            if walls.is_wall[g as usize] || group.plane.is_none() {
+                continue;
+            }
+            let sides = group.faces.iter().flat_map(|f| 3 * f..3 * f + 3);
+            let mut beside: Vec<u32> = sides.map(|h| segments.of(solid.across(h))).collect();
+            beside.retain(|o| kept[*o as usize] && self.only(*o).is_some());
+            beside.sort_unstable();
+            beside.dedup();
+            let thick = |g: u32| walls.partners(g).iter().map(|p| p.thickness).fold(0.0, f64::max);
+            let Some(&thickest) = beside.iter().max_by(|a, b| thick(**a).total_cmp(&thick(**b))) else {
+                continue;
+            };
+            for thinner in beside.into_iter().filter(|b| *b != thickest) {
+                self.align(walls, thinner, thickest);
+            }
+        }
+    }
+
+    fn align(&mut self, walls: &Walls, thinner: u32, thicker: u32) {
+        let [Some(from), Some(to)] = [thinner, thicker].map(|g| self.only(g)) else { return };
+        let pair = walls.partners(thicker).iter().find_map(|p| self.between(thicker, p.partner));
+        let Some((_, number)) = pair.filter(|_| from.normal.dot(to.normal) > ALIGNED) else { return };
+        for entry in self.between.iter_mut().filter(|b| b.0.contains(&thinner)) {
+            let faces = entry.1.normal.dot(to.normal) > 0.0;
+            entry.1 = if faces { to } else { to.flipped() };
+            entry.2 = number;
+        }
+        self.of_group[thinner as usize] = vec![to];
+    }
+
+    /// The mid-plane between two groups, facing as the first, and its number.
+    pub(super) fn between(&self, group: u32, partner: u32) -> Option<(Plane, u32)> {
+        let k = self.between.binary_search_by_key(&[group, partner], |b| b.0).ok()?;
+        Some((self.between[k].1, self.between[k].2))
+    }
+
+    /// The exact mid-plane that a group has everywhere, if there is just one.
+    pub(super) fn only(&self, group: u32) -> Option<Plane> {
+        match self.of_group[group as usize][..] {
+            [plane] => Some(plane),
+            _ => None,
+        }
+    }
+
+    /// The middles at the corners of all faces of walls; `None` elsewhere, and where nothing is opposite. O(n log n).
+    pub(super) fn at_corners(
+        &self,
+        solid: &Solid,
+        segments: &Segments,
+        walls: &Walls,
+    ) -> Vec<[Option<Middle>; 3]> {
+        let seen: Vec<[Option<Middle>; 3]> = (0..solid.len())
+            .into_par_iter()
+            .map(|f| {
+                let group = segments.of(f);
+                if !walls.is_wall[group as usize] {
+                    return [None; 3];
+                }
+                self.corners_of(solid, segments, walls, f)
+            })
+            .collect();
+        self.filled(solid, segments, walls, seen)
+    }
+
+    fn corners_of(&self, solid: &Solid, segments: &Segments, walls: &Walls, f: u32) -> [Option<Middle>; 3] {
+        let group = segments.of(f);
+        let normal = solid.normals[f as usize];
+        let middle = solid.centroid(f);
+        if let Some(plane) = self.only(group)
+            && let [pair] = walls.partners(group)
+        {
+            // One plane wall opposite to one other: nothing to look for.
+            let exact = self.between(group, pair.partner).map(|b| b.1);
+            return [Some(Middle { plane, exact, thickness: pair.thickness }); 3];
+        }
+        solid.mesh.corners(f).map(|corner| {
+            let p = corner.lerp(middle, INSET);
+            // Behind a fillet the wall is thicker than it is.
+            let wall = |p: DVec3| {
+                let seen = walls.opposite(solid, segments, f, p);
+                seen.filter(|o| walls.is_wall[segments.of(o.face) as usize])
+            };
+            let opposite = wall(p).or_else(|| wall(middle))?;
+            let partner = segments.of(opposite.face);
+            if let Some((plane, number)) = self.between(group, partner) {
+                let thickness = opposite.distance;
+                return Some(Middle { plane, exact: Some(number), thickness });
+            }
+            let offset = normal.dot(corner) - opposite.distance / 2.0;
+            Some(Middle { plane: Plane { normal, offset }, exact: None, thickness: opposite.distance })
+        })
+    }
+
+    /// Corners where nothing is opposite (below a rib, say) take what their group has elsewhere.
+    fn filled(
+        &self,
+        solid: &Solid,
+        segments: &Segments,
+        walls: &Walls,
+        mut seen: Vec<[Option<Middle>; 3]>,
+    ) -> Vec<[Option<Middle>; 3]> {
+        for (g, group) in segments.groups.iter().enumerate() {
+            if !walls.is_wall[g] {
+                continue;
+            }
+            if let Some(plane) = self.only(g as u32) {
+                let main = walls.partners(g as u32).iter().max_by(|a, b| a.area.total_cmp(&b.area));
+                let Some(pair) = main else { continue };
+                let exact = self.between(g as u32, pair.partner).map(|b| b.1);
+                for &f in &group.faces {
+                    for m in &mut seen[f as usize] {
+                        if m.is_none_or(|m| m.exact.is_none()) {
+                            *m = Some(Middle { plane, exact, thickness: pair.thickness });
+                        }
+                    }
+                }
+            } else {
+                fill_from_neighbours(solid, segments, g as u32, &mut seen);
+            }
+        }
+        seen
+    }
+}
+
+/// Spreads thicknesses over the faces of a group from where they are known.
+fn fill_from_neighbours(solid: &Solid, segments: &Segments, g: u32, seen: &mut [[Option<Middle>; 3]]) {
+    let group = segments.group(g);
+    let known = |seen: &[[Option<Middle>; 3]], f: u32| {
+        let own: Vec<Middle> = seen[f as usize].iter().flatten().copied().collect();
+        (!own.is_empty()).then(|| {
+            (own.iter().map(|m| m.thickness).sum::<f64>() / own.len() as f64, own[0].exact, own[0].plane)
+        })
+    };
+    let mut front: Vec<u32> = group.faces.iter().copied().filter(|f| known(seen, *f).is_some()).collect();
+    let mut at = 0;
+    for &f in &front {
+        complete(solid, f, known(seen, f), seen);
+    }
+    while at < front.len() {
+        let f = front[at];
+        at += 1;
+        let from = known(seen, f);
+        for h in 3 * f..3 * f + 3 {
+            let other = solid.across(h);
+            if segments.of(other) == g && known(seen, other).is_none() {
+                complete(solid, other, from, seen);
+                front.push(other);
+            }
+        }
+    }
+}
+
+/// Gives the corners of a face that know nothing a thickness.
+fn complete(
+    solid: &Solid,
+    f: u32,
+    from: Option<(f64, Option<u32>, Plane)>,
+    seen: &mut [[Option<Middle>; 3]],
+) {
+    let Some((thickness, exact, plane)) = from else { return };
+    let normal = solid.normals[f as usize];
+    for (m, corner) in seen[f as usize].iter_mut().zip(solid.mesh.corners(f)) {
+        if m.is_none() {
+            let beside = Plane { normal, offset: normal.dot(corner) - thickness / 2.0 };
+            let plane = if exact.is_some() { plane } else { beside };
+            *m = Some(Middle { plane, exact, thickness });
+        }
+    }
+}
+
+/// One of a direction and its opposite.
+fn faces_up(n: DVec3) -> bool {
+    let small = 1e-9;
+    if n.z.abs() > small {
+        n.z > 0.0
+    } else if n.y.abs() > small {
+        n.y > 0.0
+    } else {
+        n.x > 0.0
+    }
+}

@@ -1,0 +1,237 @@
+//! Deflation: a thin solid becomes its mid-surface, stitched and with its thickness (Sheen et al. 2008).
+
+mod assemble;
+mod blends;
+mod error;
+mod features;
+mod fill;
+mod follow;
+mod middle;
+mod options;
+mod patches;
+mod plan;
+mod plane;
+mod replace;
+mod report;
+mod seams;
+mod segments;
+mod sides;
+mod solid;
+mod thickness;
+mod topology;
+mod walls;
+
+pub use error::DeflateError;
+pub use options::{DeflateOptions, Steps};
+pub use report::{DeflateReport, Feature, ThicknessRange, UnpairedFace};
+
+use mesh_kernel::TriMesh;
+use mesh_kernel::query::Crossings;
+
+use assemble::{Moved, assemble};
+use blends::Blends;
+use features::Features;
+use follow::follow;
+use middle::Middles;
+use patches::patched;
+use replace::Replacement;
+use segments::Segments;
+use sides::kept_groups;
+use solid::Solid;
+use thickness::thicknesses;
+use topology::Topology;
+use walls::Walls;
+
+/// A solid is thin if this share of its skin has a partner.
+const THIN: f64 = 0.5;
+
+/// The mid-surface of a solid.
+#[derive(Clone, Debug)]
+pub struct Deflated {
+    /// The mid-surface; a group a patch, nodes shared wherever patches meet.
+    pub sheet: TriMesh,
+    /// Thickness at every face, in mm.
+    pub thickness: Vec<f64>,
+    /// Counts and measures.
+    pub report: DeflateReport,
+}
+
+/// Steps of the work, for progress.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// The solid is checked.
+    Check,
+    /// Its skin is cut into face groups.
+    Segments,
+    /// Walls that lie opposite to each other are found.
+    Pairs,
+    /// Nodes move to the middle.
+    Replace,
+    /// One wall of every pair is taken and stitched to the others.
+    Stitch,
+    /// The mid-surface is measured.
+    Measure,
+}
+
+/// Who is told of the progress, and may end the work.
+pub trait Watcher: Sync {
+    /// A step begins.
+    fn step(&self, _step: Step) {}
+    /// `true` ends the work with [`DeflateError::Cancelled`].
+    fn cancelled(&self) -> bool {
+        false
+    }
+}
+
+/// Nobody watches.
+#[derive(Clone, Copy, Debug)]
+pub struct Nobody;
+impl Watcher for Nobody {}
+
+/// Deflates a solid.
+///
+/// Walls between plane faces get exact mid-planes; curved walls follow the tessellation of the solid. The solid may be
+/// wound either way; nodes in one place are welded.
+///
+/// ```
+/// use mesh_kernel::TriMesh;
+/// use mesh_kernel::glam::DVec3;
+/// use sheet::deflate::{DeflateOptions, Nobody, deflate};
+///
+/// // A plate of 100 × 60 × 2 mm.
+/// let corner = |k: u32| DVec3::new(100. * f64::from(k & 1), 60. * f64::from(k >> 1 & 1), 2. * f64::from(k >> 2));
+/// let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+/// let faces = quads.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
+/// let plate = TriMesh::new((0..8).map(corner).collect(), faces);
+///
+/// let thin = deflate(&plate, &DeflateOptions::default(), &Nobody)?;
+/// assert!((thin.report.area - 6000.0).abs() < 1e-9);
+/// assert!(thin.thickness.iter().all(|t| (t - 2.0).abs() < 1e-12));
+/// # Ok::<(), sheet::deflate::DeflateError>(())
+/// ```
+///
+/// # Errors
+/// [`DeflateError`]. O(n log n) in faces.
+pub fn deflate(
+    solid: &TriMesh,
+    options: &DeflateOptions,
+    watcher: &dyn Watcher,
+) -> Result<Deflated, DeflateError> {
+    let begin = |step| {
+        if watcher.cancelled() {
+            return Err(DeflateError::Cancelled);
+        }
+        watcher.step(step);
+        Ok(())
+    };
+    begin(Step::Check)?;
+    options.check()?;
+    let solid = Solid::new(solid)?;
+    begin(Step::Segments)?;
+    let mut segments = Segments::new(&solid);
+    begin(Step::Pairs)?;
+    let mut walls = Walls::new(&solid, &segments, options);
+    let flares = walls.flares(&solid, &segments);
+    if !flares.is_empty() {
+        segments.split_off(&flares, &solid);
+        walls = Walls::new(&solid, &segments, options);
+    }
+    let blends = Blends::new(&solid, &segments, &walls);
+    if walls.paired_share < THIN {
+        let unpaired = unpaired(&solid, &segments, &walls, 0.0);
+        let (paired, max_thickness) = (walls.paired_share, walls.max_thickness);
+        return Err(DeflateError::Bulky { paired, max_thickness, unpaired });
+    }
+    begin(Step::Replace)?;
+    let mut features = Features::new(&solid, &segments, &walls, &blends, options);
+    let mut middles = Middles::new(&solid, &segments, &walls);
+    let kept = kept_groups(&solid, &segments, &walls, &blends, &middles.of_group);
+    if options.steps == Steps::Aligned {
+        middles.align_steps(&solid, &segments, &walls, &kept);
+    }
+    let corners = middles.at_corners(&solid, &segments, &walls);
+    let replacement = Replacement::new(&solid, &segments, &walls, &middles, &blends, &corners);
+    let moved = Moved { positions: replacement.positions(), soft: replacement.beside_facets() };
+    begin(Step::Stitch)?;
+    let stitch = |gone: &[bool]| {
+        let kept: Vec<bool> = kept.iter().zip(gone).map(|(kept, gone)| *kept && !gone).collect();
+        let mut sheet = assemble(&solid, &segments, &walls, &middles, gone, &kept, &moved, options);
+        follow(&mut sheet, &solid, &segments, &walls);
+        let thickness = thicknesses(&sheet, &solid, &segments, &walls, &middles, &corners);
+        let patched = patched(&sheet, &segments);
+        let crossing = Crossings::new(&patched.mesh).self_crossing().len();
+        (sheet, thickness, patched, crossing)
+    };
+    let (mut sheet, mut thickness, mut patched, mut crossing) = stitch(&features.gone);
+    if features.gone.contains(&true) && crossing + sheet.lost > 0 {
+        let with_all = stitch(&vec![false; features.gone.len()]);
+        if with_all.3 + with_all.0.lost < crossing + sheet.lost {
+            (sheet, thickness, patched, crossing) = with_all;
+            features.undo();
+        }
+    }
+    let unpaired = unpaired(&solid, &segments, &walls, END_WIDTH);
+    begin(Step::Measure)?;
+    let thickness: Vec<f64> = patched.order.iter().map(|f| thickness[*f as usize]).collect();
+    let mesh = patched.mesh;
+    let topology = Topology::of(&mesh);
+    let areas: Vec<f64> = (0..mesh.faces.len() as u32).map(|f| mesh.area_normal(f).length() / 2.0).collect();
+    let area: f64 = areas.iter().sum();
+    let report = DeflateReport {
+        features: features.list,
+        pairs: walls.pairs.iter().filter(|p| p.group < p.partner).count(),
+        unpaired,
+        patches: mesh.groups.len(),
+        joints: topology.joints,
+        free_loops: topology.free_loops,
+        components: topology.components,
+        area,
+        thickness: ThicknessRange {
+            min: thickness.iter().copied().fold(f64::INFINITY, f64::min),
+            max: thickness.iter().copied().fold(0.0, f64::max),
+            mean: thickness.iter().zip(&areas).map(|(t, a)| t * a).sum::<f64>() / area,
+        },
+        max_thickness: walls.max_thickness,
+        paired_share: walls.paired_share,
+        steps: sheet.planes.iter().filter(|p| p.1).count(),
+        self_intersections: crossing,
+        lost_edges: sheet.lost,
+        solid_volume: solid.volume,
+    };
+    Ok(Deflated { sheet: mesh, thickness, report })
+}
+
+/// A face no wider than this many thicknesses is the end of a wall, or a blend.
+const END_WIDTH: f64 = 1.5;
+
+/// Groups that are no walls and wider than some thicknesses, the largest first.
+fn unpaired(solid: &Solid, segments: &Segments, walls: &Walls, wider: f64) -> Vec<UnpairedFace> {
+    let mut found = Vec::new();
+    for (group, is_wall) in segments.groups.iter().zip(&walls.is_wall) {
+        if *is_wall {
+            continue;
+        }
+        let outline: f64 = group
+            .faces
+            .iter()
+            .flat_map(|f| 3 * f..3 * f + 3)
+            .filter(|h| segments.of(solid.across(*h)) != segments.of(h / 3))
+            .map(|h| {
+                let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
+                a.distance(b)
+            })
+            .sum();
+        if 2.0 * group.area < wider * walls.max_thickness * outline {
+            continue;
+        }
+        let largest = group
+            .faces
+            .iter()
+            .max_by(|f, g| solid.areas[**f as usize].total_cmp(&solid.areas[**g as usize]).then(g.cmp(f)));
+        let Some(&largest) = largest else { continue };
+        let kind = if group.plane.is_some() { "plane" } else { "curved" };
+        found.push(UnpairedFace { at: solid.centroid(largest), area: group.area, kind });
+    }
+    found.sort_by(|a, b| b.area.total_cmp(&a.area));
+    found
+}

@@ -1,0 +1,176 @@
+//! Which groups of the solid become which pieces of the mid-surface.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use glam::DVec3;
+
+use super::middle::Middles;
+use super::plane::Plane;
+use super::segments::Segments;
+use super::solid::Solid;
+use super::walls::{Pair, Walls};
+use super::{DeflateOptions, Steps};
+
+/// Sides of a wall whose normals differ by less than this are parallel.
+const PARALLEL: f64 = 1e-4;
+/// The thickness changes by this share along an edge of a wall with draft.
+const EVEN: f64 = 0.01;
+/// Strips narrower than this share of the thickness are no steps.
+const STEP: f64 = 0.02;
+
+/// Which groups are made into what.
+pub(super) struct Plan {
+    pub(super) planes: Vec<PlanePiece>,
+    /// Curved groups.
+    pub(super) curved: Vec<u32>,
+}
+
+/// Groups in one plane.
+pub(super) struct PlanePiece {
+    pub(super) plane: Plane,
+    /// With whether each faces as the plane.
+    pub(super) groups: Vec<(u32, bool)>,
+    /// Whether it joins two middles where the thickness steps.
+    pub(super) is_step: bool,
+    /// How long edges may be so that the thickness is nearly even in every triangle; `None` where it is even.
+    pub(super) edge_length: Option<f64>,
+}
+
+/// The directed edges of a group to other groups, but for those that are gone.
+pub(super) fn border(
+    solid: &Solid,
+    segments: &Segments,
+    gone: &[bool],
+    g: u32,
+) -> impl Iterator<Item = [u32; 2]> {
+    let faces = &segments.group(g).faces;
+    let sides = faces.iter().flat_map(|f| 3 * f..3 * f + 3);
+    let beyond = move |h: &u32| segments.of(solid.across(*h));
+    sides.filter(move |h| beyond(h) != g && !gone[beyond(h) as usize]).map(|h| solid.adjacency.ends(h))
+}
+
+/// Sorts the kept groups into plane pieces and curved ones. O(groups · planes).
+#[allow(clippy::too_many_arguments, reason = "one call, all of them what was found before")]
+pub(super) fn plan(
+    solid: &Solid,
+    segments: &Segments,
+    walls: &Walls,
+    middles: &Middles,
+    gone: &[bool],
+    kept: &[bool],
+    moved: &[DVec3],
+    options: &DeflateOptions,
+) -> Plan {
+    let mut by_plane: BTreeMap<u32, PlanePiece> = BTreeMap::new();
+    let mut curved = Vec::new();
+    for g in (0..segments.groups.len() as u32).filter(|g| kept[*g as usize]) {
+        let exact = middles.only(g).and_then(|plane| {
+            let pair = walls.partners(g).iter().find_map(|p| middles.between(g, p.partner))?;
+            Some((plane, pair.1))
+        });
+        match exact {
+            Some((plane, number)) => {
+                let shared = middles.mid_planes.plane(number);
+                let piece = by_plane.entry(number);
+                let piece = piece.or_insert_with(|| PlanePiece {
+                    plane: shared,
+                    groups: Vec::new(),
+                    is_step: false,
+                    edge_length: None,
+                });
+                piece.groups.push((g, plane.normal.dot(shared.normal) > 0.0));
+                let even = even_length(segments, walls, g);
+                piece.edge_length = match (piece.edge_length, even) {
+                    (Some(a), Some(b)) => Some(a.min(b)),
+                    (a, b) => a.or(b),
+                };
+            }
+            None => curved.push(g),
+        }
+    }
+    let mut planes: Vec<PlanePiece> = by_plane.into_values().collect();
+    // The piece faces as most of it did on the solid.
+    for piece in &mut planes {
+        let area = |(g, same): &(u32, bool)| if *same { 1.0 } else { -1.0 } * segments.group(*g).area;
+        if piece.groups.iter().map(area).sum::<f64>() < 0.0 {
+            piece.plane = piece.plane.flipped();
+            piece.groups.iter_mut().for_each(|g| g.1 = !g.1);
+        }
+    }
+    if options.steps != Steps::Apart {
+        planes.extend(steps(solid, segments, walls, gone, kept, moved));
+    }
+    Plan { planes, curved }
+}
+
+/// How long edges may be in a wall whose sides are not parallel.
+fn even_length(segments: &Segments, walls: &Walls, g: u32) -> Option<f64> {
+    let own = segments.group(g).plane?;
+    let of_pair = |p: &Pair| {
+        let slope = (own.normal + segments.group(p.partner).plane?.normal).length();
+        (slope > PARALLEL).then(|| EVEN * p.thickness / slope)
+    };
+    walls.partners(g).iter().filter_map(of_pair).min_by(f64::total_cmp)
+}
+
+/// Faces without a partner that stand between two middles: where the thickness steps.
+fn steps(
+    solid: &Solid,
+    segments: &Segments,
+    walls: &Walls,
+    gone: &[bool],
+    kept: &[bool],
+    moved: &[DVec3],
+) -> Vec<PlanePiece> {
+    let mut found = Vec::new();
+    for (g, group) in (0u32..).zip(&segments.groups) {
+        let Some(plane) = group.plane.filter(|_| !walls.is_wall[g as usize] && !gone[g as usize]) else {
+            continue;
+        };
+        let mut beside: BTreeSet<u32> = BTreeSet::new();
+        for &f in &group.faces {
+            let others = (3 * f..3 * f + 3).map(|h| segments.of(solid.across(h)));
+            beside.extend(others.filter(|o| kept[*o as usize]));
+        }
+        if beside.len() < 2 {
+            continue;
+        }
+        // Twice the area that is left, and its outline.
+        let (mut area, mut length, mut longest) = (DVec3::ZERO, 0.0, 0.0f64);
+        let origin = moved[solid.mesh.faces[group.faces[0] as usize][0] as usize];
+        for [a, b] in border(solid, segments, gone, g) {
+            let (p, q) = (moved[a as usize] - origin, moved[b as usize] - origin);
+            area += p.cross(q);
+            length += p.distance(q);
+            longest = longest.max(p.length());
+        }
+        let area = area.dot(plane.normal).abs() / 2.0;
+        let width = 2.0 * area / length.max(f64::MIN_POSITIVE);
+        let thin =
+            beside.iter().flat_map(|b| walls.partners(*b)).map(|p| p.thickness).fold(f64::MAX, f64::min);
+        if width > STEP * thin && width < walls.max_thickness && width < 0.5 * longest {
+            let origin = moved_plane(solid, segments, gone, g, moved, plane);
+            found.push(PlanePiece {
+                plane: origin,
+                groups: vec![(g, true)],
+                is_step: true,
+                edge_length: None,
+            });
+        }
+    }
+    found
+}
+
+/// The plane of a step stays where it was: its nodes move within it.
+fn moved_plane(
+    solid: &Solid,
+    segments: &Segments,
+    gone: &[bool],
+    g: u32,
+    moved: &[DVec3],
+    plane: Plane,
+) -> Plane {
+    let nodes: Vec<f64> =
+        border(solid, segments, gone, g).map(|[a, _]| plane.normal.dot(moved[a as usize])).collect();
+    Plane { offset: nodes.iter().sum::<f64>() / nodes.len().max(1) as f64, ..plane }
+}

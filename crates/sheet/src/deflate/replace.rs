@@ -1,0 +1,352 @@
+//! Every node of the solid moves to where the replaced geometries of its faces meet; topology stays as it is (Sheen et
+//! al. 2008, section 6.2).
+
+use glam::{DMat3, DVec3};
+use rayon::prelude::*;
+
+use super::blends::{Belongs, Blends};
+use super::middle::{Middle, Middles};
+use super::plane::Plane;
+use super::segments::Segments;
+use super::solid::Solid;
+use super::walls::Walls;
+
+/// Two planes meet in a line if the sine of the angle between them is more than this.
+const MEETING: f64 = 0.03;
+/// The same for the plane of an end face.
+const MEETING_END: f64 = 0.3;
+/// Faces without a partner smaller than this many squares of the thickness hold nothing.
+const TRIFLE: f64 = 0.05;
+/// How much staying beside the starting point weighs against the planes of facets that do not agree on a point, as where
+/// both sides of a wall are tessellated in their own way.
+const STAY: f64 = 3e-3;
+/// The same for facets that do agree.
+const STAY_AGREED: f64 = 1e-4;
+/// Facets agree on a point that is this near to all of them, over the thickness.
+const AGREED: f64 = 2e-3;
+/// A node does not move farther than this many thicknesses for it.
+const REACH: f64 = 0.75;
+/// A chain of edges that turns by more than this, in radians, has a corner there.
+const CORNER_TURN: f64 = std::f64::consts::FRAC_PI_4;
+
+/// What is needed to move nodes.
+pub(super) struct Replacement<'a> {
+    pub(super) solid: &'a Solid,
+    pub(super) segments: &'a Segments,
+    pub(super) walls: &'a Walls,
+    pub(super) middles: &'a Middles,
+    pub(super) blends: &'a Blends,
+    /// The middles at the corners of every face.
+    pub(super) corners: &'a [[Option<Middle>; 3]],
+    /// Faces at every node, with the corner: `3 face + corner`.
+    star: Star,
+}
+
+/// Corners at every node.
+struct Star {
+    starts: Vec<u32>,
+    corners: Vec<u32>,
+}
+
+impl Star {
+    fn new(faces: &[[u32; 3]], nodes: usize) -> Self {
+        let mut starts = vec![0u32; nodes + 1];
+        for v in faces.iter().flatten() {
+            starts[*v as usize + 1] += 1;
+        }
+        for v in 0..nodes {
+            starts[v + 1] += starts[v];
+        }
+        let mut fill = starts.clone();
+        let mut corners = vec![0; 3 * faces.len()];
+        for (k, v) in (0..).zip(faces.iter().flatten()) {
+            corners[fill[*v as usize] as usize] = k;
+            fill[*v as usize] += 1;
+        }
+        Self { starts, corners }
+    }
+
+    fn of(&self, v: u32) -> &[u32] {
+        &self.corners[self.starts[v as usize] as usize..self.starts[v as usize + 1] as usize]
+    }
+}
+
+/// The planes that a node has to lie on, and those that it should lie beside.
+#[derive(Default)]
+struct Wanted {
+    walls: Vec<Plane>,
+    ends: Vec<Plane>,
+    /// With weights.
+    facets: Vec<(Plane, f64)>,
+    /// The same for facets of end faces.
+    end_facets: Vec<(Plane, f64)>,
+    /// Of the thinnest wall about it, in mm.
+    thickness: f64,
+}
+
+impl<'a> Replacement<'a> {
+    pub(super) fn new(
+        solid: &'a Solid,
+        segments: &'a Segments,
+        walls: &'a Walls,
+        middles: &'a Middles,
+        blends: &'a Blends,
+        corners: &'a [[Option<Middle>; 3]],
+    ) -> Self {
+        let star = Star::new(&solid.mesh.faces, solid.mesh.positions.len());
+        Self { solid, segments, walls, middles, blends, corners, star }
+    }
+
+    /// Whether each node lies beside facets and not just on planes: then it is only as exact as chords are. O(n).
+    pub(super) fn beside_facets(&self) -> Vec<bool> {
+        let nodes = self.solid.mesh.positions.len() as u32;
+        (0..nodes).into_par_iter().map(|v| !self.wanted(v).facets.is_empty()).collect()
+    }
+
+    /// Where all nodes move to. O(n).
+    pub(super) fn positions(&self) -> Vec<DVec3> {
+        let nodes = self.solid.mesh.positions.len() as u32;
+        let mut moved: Vec<DVec3> = (0..nodes).into_par_iter().map(|v| self.place(v, DVec3::ZERO)).collect();
+        // Along a chain between two corners nodes go with its ends, or those near a corner would be passed by it.
+        for chain in self.chains() {
+            let at = |v: u32| self.solid.mesh.positions[v as usize];
+            let last = chain.len() - 1;
+            let tangent = |k: usize| {
+                let (a, b) = (chain[k.saturating_sub(1)], chain[(k + 1).min(last)]);
+                (at(b) - at(a)).normalize_or_zero()
+            };
+            let shift = |k: usize| (moved[chain[k] as usize] - at(chain[k])).dot(tangent(k));
+            let (first_shift, last_shift) = (shift(0), shift(last));
+            let mut lengths = vec![0.0];
+            for pair in chain.windows(2) {
+                lengths.push(lengths[lengths.len() - 1] + at(pair[0]).distance(at(pair[1])));
+            }
+            let whole = lengths[last].max(f64::MIN_POSITIVE);
+            let places: Vec<DVec3> = (1..last)
+                .map(|k| {
+                    let s = lengths[k] / whole;
+                    self.place(chain[k], tangent(k) * (first_shift * (1.0 - s) + last_shift * s))
+                })
+                .collect();
+            for (k, place) in (1..last).zip(places) {
+                moved[chain[k] as usize] = place;
+            }
+        }
+        moved
+    }
+
+    /// Chains of edges between groups, from corner to corner; those that close without one are left out.
+    fn chains(&self) -> Vec<Vec<u32>> {
+        let solid = self.solid;
+        let borders = |h: u32| self.segments.of(h / 3) != self.segments.of(solid.across(h));
+        let mut links: Vec<[u32; 2]> = Vec::new();
+        for h in (0..3 * solid.len()).filter(|h| borders(*h)) {
+            let [a, b] = solid.adjacency.ends(h);
+            links.push([a, b]);
+        }
+        links.sort_unstable();
+        links.dedup();
+        let out = |v: u32| {
+            let from = links.partition_point(|l| l[0] < v);
+            let to = links.partition_point(|l| l[0] <= v);
+            &links[from..to]
+        };
+        let at = |v: u32| solid.mesh.positions[v as usize];
+        let is_corner = |v: u32| match out(v) {
+            [[_, a], [_, b]] => {
+                let (p, q) = ((at(v) - at(*a)).normalize_or_zero(), (at(*b) - at(v)).normalize_or_zero());
+                p.dot(q) < CORNER_TURN.cos()
+            }
+            _ => true,
+        };
+        let mut chains = Vec::new();
+        for link in &links {
+            let [first, mut v] = *link;
+            if !is_corner(first) {
+                continue;
+            }
+            let mut chain = vec![first, v];
+            while !is_corner(v) {
+                let before = chain[chain.len() - 2];
+                let Some(next) = out(v).iter().map(|l| l[1]).find(|w| *w != before) else { break };
+                chain.push(next);
+                v = next;
+            }
+            // Each chain is walked from both ends; one is enough.
+            if chain.len() > 2 && (first, chain[1]) <= (v, chain[chain.len() - 2]) {
+                chains.push(chain);
+            }
+        }
+        chains
+    }
+
+    fn place(&self, v: u32, along: DVec3) -> DVec3 {
+        let p = self.solid.mesh.positions[v as usize];
+        let mut wanted = self.wanted(v);
+        let planes = independent(&wanted);
+        let start = on_planes(p + along, &planes);
+        wanted.facets.append(&mut wanted.end_facets);
+        if wanted.facets.is_empty() {
+            start
+        } else {
+            beside_facets(start, &planes, &wanted.facets, wanted.thickness)
+        }
+    }
+
+    fn wanted(&self, v: u32) -> Wanted {
+        let mut wanted = Wanted::default();
+        let mut groups: Vec<u32> = self.star.of(v).iter().map(|c| self.segments.of(c / 3)).collect();
+        groups.sort_unstable();
+        groups.dedup();
+        let own = groups.iter().map(|&group| Belongs { group, at: v });
+        let behind = self.blends.behind(v).iter().copied().filter(|b| !groups.contains(&b.group));
+        let belongs: Vec<Belongs> = own.chain(behind).collect();
+        // Walls first: ends that are trifles beside their thickness do not hold anything.
+        let (walls, ends): (Vec<Belongs>, Vec<Belongs>) =
+            belongs.into_iter().partition(|b| self.walls.is_wall[b.group as usize]);
+        wanted.thickness = f64::INFINITY;
+        for b in walls.into_iter().chain(ends) {
+            self.want(b, &mut wanted);
+        }
+        wanted
+    }
+
+    /// Where a face without a partner holds a node: in its plane, or if it is curved, beside the planes of its facets.
+    fn want_end(&self, belongs: Belongs, wanted: &mut Wanted) {
+        let g = belongs.group as usize;
+        let trifle = TRIFLE * wanted.thickness * wanted.thickness;
+        if self.segments.groups[g].area < trifle {
+            return;
+        }
+        if self.blends.is_blend[g] && !self.blends.behind(belongs.at).is_empty() {
+            return;
+        }
+        if let Some(k) = self.middles.plane_of[g] {
+            wanted.ends.push(self.middles.planes.plane(k));
+            return;
+        }
+        let p = self.solid.mesh.positions[belongs.at as usize];
+        for &corner in self.star.of(belongs.at) {
+            let f = corner / 3;
+            let normal = self.solid.normals[f as usize];
+            let own = self.segments.of(f) == belongs.group && self.solid.areas[f as usize] >= 0.2 * trifle;
+            // What is nearly parallel to the wall is not its end.
+            let beside = wanted.facets.iter().any(|w| w.0.normal.cross(normal).length() < MEETING_END);
+            if own && !beside {
+                wanted.end_facets.push((Plane { normal, offset: normal.dot(p) }, self.angle(corner)));
+            }
+        }
+    }
+
+    /// The angle of a face at a corner; 0 where it has none.
+    fn angle(&self, corner: u32) -> f64 {
+        let [a, b, c] = self.solid.mesh.corners(corner / 3);
+        let [p, q, r] = [[a, b, c], [b, c, a], [c, a, b]][corner as usize % 3];
+        Some((q - p).angle_between(r - p)).filter(|angle| angle.is_finite()).unwrap_or(0.0)
+    }
+
+    fn want(&self, belongs: Belongs, wanted: &mut Wanted) {
+        let g = belongs.group as usize;
+        if !self.walls.is_wall[g] {
+            self.want_end(belongs, wanted);
+            return;
+        }
+        for &corner in self.star.of(belongs.at) {
+            let f = corner / 3;
+            if self.segments.of(f) != belongs.group {
+                continue;
+            }
+            let Some(middle) = self.corners[f as usize][corner as usize % 3] else { continue };
+            wanted.thickness = wanted.thickness.min(middle.thickness);
+            if middle.exact.is_some() {
+                if !wanted.walls.contains(&middle.plane) {
+                    wanted.walls.push(middle.plane);
+                }
+            } else {
+                wanted.facets.push((middle.plane, self.angle(corner)));
+            }
+        }
+    }
+}
+
+/// The planes that a node is put on: at most three that meet in one point, walls before ends.
+fn independent(wanted: &Wanted) -> Vec<Plane> {
+    let mut chosen: Vec<Plane> = Vec::with_capacity(3);
+    let mut basis: Vec<DVec3> = Vec::with_capacity(3);
+    let walls = wanted.walls.iter().map(|p| (p, MEETING));
+    // An end face that runs into a wall at a small angle would pull the node far along it.
+    let ends = wanted.ends.iter().map(|p| (p, MEETING_END));
+    for (plane, least) in walls.chain(ends) {
+        let rest = basis.iter().fold(plane.normal, |n, b| n - *b * b.dot(n));
+        let facets = wanted.facets.iter().map(|f| f.0.normal.cross(plane.normal).length());
+        let beside = least == MEETING_END && facets.fold(1.0, f64::min) < MEETING_END;
+        if rest.length() > least && !beside && chosen.len() < 3 {
+            basis.push(rest.normalize());
+            chosen.push(*plane);
+        }
+    }
+    chosen
+}
+
+/// The point on all planes that is nearest to `p`.
+fn on_planes(p: DVec3, planes: &[Plane]) -> DVec3 {
+    // The second round takes away what the first one rounded.
+    (0..2).fold(p, |p, _| p + step_to(p, planes))
+}
+
+fn step_to(p: DVec3, planes: &[Plane]) -> DVec3 {
+    match planes {
+        [a] => -a.normal * a.height(p),
+        [a, b] => {
+            let cosine = a.normal.dot(b.normal);
+            let (ha, hb) = (a.height(p), b.height(p));
+            let scale = 1.0 / (1.0 - cosine * cosine);
+            -(a.normal * ((ha - cosine * hb) * scale) + b.normal * ((hb - cosine * ha) * scale))
+        }
+        [a, b, c] => {
+            let rows = DMat3::from_cols(a.normal, b.normal, c.normal).transpose();
+            -(rows.inverse() * DVec3::new(a.height(p), b.height(p), c.height(p)))
+        }
+        _ => DVec3::ZERO,
+    }
+}
+
+/// The point on the planes that is as near to the planes of facets as can be (least squares), and otherwise beside `p`.
+fn beside_facets(p: DVec3, planes: &[Plane], facets: &[(Plane, f64)], thickness: f64) -> DVec3 {
+    // What the planes leave free.
+    let free = match planes {
+        [] => DMat3::IDENTITY,
+        [a] => DMat3::IDENTITY - outer(a.normal),
+        [a, b] => outer(a.normal.cross(b.normal).normalize_or_zero()),
+        _ => return p,
+    };
+    let weight: f64 = facets.iter().map(|f| f.1).sum();
+    let normal: DVec3 = facets.iter().map(|(plane, w)| plane.normal * *w).sum();
+    // Start where the mean facet's plane is, so that staying costs nothing on a smooth wall.
+    let direction = (free * normal).normalize_or_zero();
+    let (mut above, mut below) = (0.0, 0.0);
+    for (plane, w) in facets {
+        let slope = plane.normal.dot(direction);
+        above += w * slope * plane.height(p);
+        below += w * slope * slope;
+    }
+    let start = if below > 1e-6 * weight { p - direction * (above / below) } else { p };
+    let (mut matrix, mut right) = (DMat3::ZERO, DVec3::ZERO);
+    for (plane, w) in facets {
+        let n = free * plane.normal;
+        matrix += outer(n) * *w;
+        right -= n * (w * plane.height(start));
+    }
+    let with = |stay: f64| {
+        let moved = start + free * ((matrix + DMat3::IDENTITY * (stay * weight)).inverse() * right);
+        if moved.is_finite() { on_planes(moved, planes) } else { p }
+    };
+    let agreed = with(STAY_AGREED);
+    let off = facets.iter().map(|(plane, _)| plane.height(agreed).abs()).fold(0.0, f64::max);
+    let near = agreed.distance(start) < REACH * thickness;
+    if off < AGREED * thickness && near { agreed } else { with(STAY) }
+}
+
+fn outer(n: DVec3) -> DMat3 {
+    DMat3::from_cols(n * n.x, n * n.y, n * n.z)
+}

@@ -1,0 +1,400 @@
+//! Where borders of pieces come to lie on each other they become one: the same nodes, the same edges.
+//!
+//! Both sides of a rib end on the same line of the plate, each with the nodes that its own side of the solid had there.
+//! Nodes in one place are merged, edges are cut at nodes that lie on them and where they cross, so that afterwards edges
+//! are the same or have at most a node in common.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+
+/// Union–find in which the smaller number stands for both.
+#[derive(Debug)]
+pub(super) struct Merged {
+    parent: Vec<u32>,
+}
+
+impl Merged {
+    pub(super) fn new(n: usize) -> Self {
+        Self { parent: (0..n as u32).collect() }
+    }
+
+    /// Who stands for `x`.
+    pub(super) fn find(&self, mut x: u32) -> u32 {
+        while self.parent[x as usize] != x {
+            x = self.parent[x as usize];
+        }
+        x
+    }
+
+    pub(super) fn join(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.find(a), self.find(b));
+        let (low, high) = (a.min(b), a.max(b));
+        self.parent[high as usize] = low;
+    }
+
+    fn push(&mut self) -> u32 {
+        self.parent.push(self.parent.len() as u32);
+        self.parent.len() as u32 - 1
+    }
+
+    /// Makes every path one step long.
+    fn flatten(&mut self) {
+        for x in 0..self.parent.len() as u32 {
+            self.parent[x as usize] = self.find(x);
+        }
+    }
+}
+
+/// Borders that were made to agree.
+#[derive(Debug)]
+pub(super) struct Seams {
+    pub(super) positions: Vec<DVec3>,
+    pub(super) merged: Merged,
+    /// Whether a node is only as exact as chords are.
+    soft: Vec<bool>,
+    /// The different edges of borders, smaller node first, ascending.
+    edges: Vec<[u32; 2]>,
+    /// The nodes of each, from the smaller end on.
+    paths: Vec<Vec<u32>>,
+    /// The pieces that each borders.
+    pieces: Vec<Vec<u32>>,
+}
+
+/// How near things must be to be one, in mm.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Nearness {
+    /// For what is exact: rounding.
+    pub(super) rounding: f64,
+    /// For borders of curved pieces, which are chords.
+    pub(super) chords: f64,
+}
+
+/// A part of a border between two neighbouring nodes, and how many pieces it borders.
+type Part = ([u32; 2], usize);
+
+impl Seams {
+    /// Makes borders agree. `borders`: edges with the number of their piece; `soft`: whether each node is only as exact as
+    /// chords are. O(n log n) and what lies beside each other.
+    pub(super) fn new(
+        positions: Vec<DVec3>,
+        merged: Merged,
+        borders: &[([u32; 2], u32)],
+        soft: &[bool],
+        near: Nearness,
+    ) -> Self {
+        let mut all: Vec<([u32; 2], u32)> =
+            borders.iter().map(|([a, b], piece)| ([*a.min(b), *a.max(b)], *piece)).collect();
+        all.sort_unstable();
+        all.dedup();
+        let runs: Vec<&[([u32; 2], u32)]> = all.chunk_by(|a, b| a.0 == b.0).collect();
+        let edges: Vec<[u32; 2]> = runs.iter().map(|run| run[0].0).collect();
+        let pieces = runs.iter().map(|run| run.iter().map(|e| e.1).collect()).collect();
+        let paths = edges.iter().map(|e| e.to_vec()).collect();
+        let mut seams = Self { positions, merged, soft: soft.to_vec(), edges, paths, pieces };
+        seams.update();
+        let nodes = seams.nodes();
+        for (a, b) in near_pairs(&seams.positions, &nodes, near.rounding) {
+            seams.merged.join(a, b);
+        }
+        seams.update();
+        for _ in 0..ROUNDS {
+            // Where three borders come together, pairs merge one after the other.
+            let merging = (0..ROUNDS).take_while(|_| seams.merge_across(near.chords)).count();
+            if seams.cut(near) == 0 && merging == 0 {
+                break;
+            }
+        }
+        seams
+    }
+
+    /// The nodes from `a` to `b` along an edge, both ends included, after merging and cutting; one node where they are one.
+    pub(super) fn path(&self, a: u32, b: u32) -> Vec<u32> {
+        let Ok(k) = self.edges.binary_search(&[a.min(b), a.max(b)]) else {
+            let mut path = vec![self.merged.find(a), self.merged.find(b)];
+            path.dedup();
+            return path;
+        };
+        let path = &self.paths[k];
+        if a < b { path.clone() } else { path.iter().rev().copied().collect() }
+    }
+
+    /// Cuts borders into parts of about a length at most that their pieces ask for.
+    pub(super) fn refine(&mut self, length_of: impl Fn(u32) -> f64) {
+        let mut lengths: BTreeMap<[u32; 2], f64> = BTreeMap::new();
+        for (path, pieces) in self.paths.iter().zip(&self.pieces) {
+            let length = pieces.iter().map(|p| length_of(*p)).fold(f64::INFINITY, f64::min);
+            for pair in path.windows(2) {
+                let least = lengths.entry([pair[0].min(pair[1]), pair[0].max(pair[1])]).or_insert(length);
+                *least = least.min(length);
+            }
+        }
+        let mut inner: BTreeMap<[u32; 2], Vec<u32>> = BTreeMap::new();
+        for ([a, b], length) in lengths {
+            let [p, q] = [a, b].map(|v| self.positions[v as usize]);
+            let count = (p.distance(q) / length * 0.999).ceil().clamp(1.0, MOST_PARTS) as u32;
+            let added = (1..count).map(|k| self.add(p.lerp(q, f64::from(k) / f64::from(count)))).collect();
+            inner.insert([a, b], added);
+        }
+        self.insert(&inner);
+    }
+
+    /// Puts nodes into the parts that they lie on, in order from the smaller end.
+    fn insert(&mut self, inner: &BTreeMap<[u32; 2], Vec<u32>>) {
+        for path in &mut self.paths {
+            let mut longer = Vec::with_capacity(path.len());
+            for pair in path.windows(2) {
+                longer.push(pair[0]);
+                let key = [pair[0].min(pair[1]), pair[0].max(pair[1])];
+                let between = inner.get(&key).map_or(&[][..], Vec::as_slice);
+                if pair[0] < pair[1] {
+                    longer.extend(between);
+                } else {
+                    longer.extend(between.iter().rev());
+                }
+            }
+            longer.extend(path.last());
+            *path = longer;
+        }
+    }
+
+    /// Brings paths up to date with what was merged.
+    fn update(&mut self) {
+        self.merged.flatten();
+        for path in &mut self.paths {
+            path.iter_mut().for_each(|v| *v = self.merged.find(*v));
+            path.dedup();
+            // There and back again is nothing.
+            while let Some(k) = path.windows(3).position(|w| w[0] == w[2]) {
+                path.drain(k..k + 2);
+            }
+        }
+    }
+
+    fn add(&mut self, p: DVec3) -> u32 {
+        self.positions.push(p);
+        self.soft.push(true);
+        self.merged.push()
+    }
+
+    /// The different parts of all borders, ascending, with the number of pieces that each borders.
+    fn parts(&self) -> Vec<Part> {
+        let mut parts: Vec<([u32; 2], u32)> = Vec::new();
+        for (path, pieces) in self.paths.iter().zip(&self.pieces) {
+            for pair in path.windows(2) {
+                let ends = [pair[0].min(pair[1]), pair[0].max(pair[1])];
+                parts.extend(pieces.iter().map(|piece| (ends, *piece)));
+            }
+        }
+        parts.sort_unstable();
+        parts.dedup();
+        parts.chunk_by(|a, b| a.0 == b.0).map(|run| (run[0].0, run.len())).collect()
+    }
+
+    /// Merges nodes of open edges that are nearest to each other across a gap between chords; whether there were any.
+    fn merge_across(&mut self, chords: f64) -> bool {
+        let parts = self.parts();
+        let open = self.open_nodes(&parts);
+        let nodes = self.nodes();
+        let linked = |a: u32, b: u32| parts.binary_search_by_key(&[a.min(b), a.max(b)], |e| e.0).is_ok();
+        let mut nearest: BTreeMap<u32, (f64, u32)> = BTreeMap::new();
+        let shortest = self.shortest_edges(&parts);
+        for (a, b) in near_pairs(&self.positions, &nodes, chords) {
+            let is_soft = self.soft[a as usize] || self.soft[b as usize];
+            if linked(a, b) || !is_soft || !(open[a as usize] || open[b as usize]) {
+                continue;
+            }
+            let d = self.positions[a as usize].distance(self.positions[b as usize]);
+            // Nodes that are far apart for their edges are cut into each other's edges instead.
+            if d > MERGED_EDGE * shortest[a as usize].max(shortest[b as usize]) {
+                continue;
+            }
+            for (from, to) in [(a, b), (b, a)] {
+                let best = nearest.entry(from).or_insert((f64::INFINITY, to));
+                if d < best.0 {
+                    *best = (d, to);
+                }
+            }
+        }
+        let mutual: Vec<(u32, u32)> = nearest
+            .iter()
+            .filter(|(a, (_, b))| **a < *b && nearest.get(b).is_some_and(|n| n.1 == **a))
+            .map(|(a, (_, b))| (*a, *b))
+            .collect();
+        for &(a, b) in &mutual {
+            // What is exact stays where it is.
+            let (p, q) = (self.positions[a as usize], self.positions[b as usize]);
+            self.positions[a as usize] = match [a, b].map(|v| self.soft[v as usize]) {
+                [false, _] => p,
+                [true, false] => q,
+                [true, true] => (p + q) / 2.0,
+            };
+            self.soft[a as usize] &= self.soft[b as usize];
+            self.merged.join(a, b);
+        }
+        self.update();
+        !mutual.is_empty()
+    }
+
+    fn nodes(&self) -> Vec<u32> {
+        let mut nodes: Vec<u32> = self.paths.iter().flatten().copied().collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
+    }
+
+    /// The shortest edge at every node.
+    fn shortest_edges(&self, edges: &[([u32; 2], usize)]) -> Vec<f64> {
+        let mut shortest = vec![f64::INFINITY; self.positions.len()];
+        for ([a, b], _) in edges {
+            let length = self.positions[*a as usize].distance(self.positions[*b as usize]);
+            for v in [a, b] {
+                shortest[*v as usize] = shortest[*v as usize].min(length);
+            }
+        }
+        shortest
+    }
+
+    /// Whether each node has an edge that borders one piece only.
+    fn open_nodes(&self, edges: &[([u32; 2], usize)]) -> Vec<bool> {
+        let mut open = vec![false; self.positions.len()];
+        for (ends, pieces) in edges {
+            if *pieces == 1 {
+                ends.iter().for_each(|v| open[*v as usize] = true);
+            }
+        }
+        open
+    }
+
+    /// Cuts parts at nodes on them, and where they cross; how many were cut.
+    fn cut(&mut self, near: Nearness) -> usize {
+        let borders = self.parts();
+        let open = self.open_nodes(&borders);
+        let edges: Vec<[u32; 2]> = borders.iter().map(|e| e.0).collect();
+        let mut order: Vec<usize> = (0..edges.len()).collect();
+        let low =
+            |e: usize| edges[e].map(|v| self.positions[v as usize].x).into_iter().fold(f64::MAX, f64::min);
+        let lows: Vec<f64> = (0..edges.len()).map(low).collect();
+        order.sort_by(|a, b| lows[*a].total_cmp(&lows[*b]).then(a.cmp(b)));
+        let mut inner: Vec<Vec<(f64, u32)>> = vec![Vec::new(); edges.len()];
+        let mut crossings: Vec<(usize, usize, f64, f64, DVec3)> = Vec::new();
+        for (i, &e) in order.iter().enumerate() {
+            let [a, b] = edges[e].map(|v| self.positions[v as usize]);
+            let (lo, hi) = (a.min(b) - near.chords, a.max(b) + near.chords);
+            for &f in &order[i + 1..] {
+                if lows[f] > hi.x {
+                    break;
+                }
+                let [c, d] = edges[f].map(|v| self.positions[v as usize]);
+                if c.min(d).cmpgt(hi).any() || c.max(d).cmplt(lo).any() {
+                    continue;
+                }
+                self.nodes_on(&borders, e, f, &open, near, &mut inner);
+                self.nodes_on(&borders, f, e, &open, near, &mut inner);
+                let apart = edges[e].iter().all(|v| !edges[f].contains(v));
+                if apart && let Some((s, t)) = crossing(a, b, c, d, near.rounding) {
+                    crossings.push((e, f, s, t, a.lerp(b, s)));
+                }
+            }
+        }
+        for (e, f, s, t, p) in crossings {
+            let taken = |list: &[(f64, u32)]| {
+                list.iter().map(|n| n.1).find(|v| self.positions[*v as usize].distance(p) <= near.rounding)
+            };
+            let node = taken(&inner[e]).or_else(|| taken(&inner[f]));
+            let node = node.unwrap_or_else(|| self.add(p));
+            inner[e].push((s, node));
+            inner[f].push((t, node));
+        }
+        let mut cuts: BTreeMap<[u32; 2], Vec<u32>> = BTreeMap::new();
+        for (edge, mut nodes) in edges.iter().zip(inner) {
+            nodes.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            nodes.dedup_by_key(|n| n.1);
+            if !nodes.is_empty() {
+                cuts.insert(*edge, nodes.into_iter().map(|n| n.1).collect());
+            }
+        }
+        self.insert(&cuts);
+        self.update();
+        cuts.len()
+    }
+
+    /// Ends of edge `f` that lie on edge `e`.
+    fn nodes_on(
+        &self,
+        edges: &[([u32; 2], usize)],
+        e: usize,
+        f: usize,
+        open: &[bool],
+        near: Nearness,
+        inner: &mut [Vec<(f64, u32)>],
+    ) {
+        let [a, b] = edges[e].0.map(|v| self.positions[v as usize]);
+        let along = b - a;
+        let length = along.length();
+        for (k, &v) in edges[f].0.iter().enumerate() {
+            if edges[e].0.contains(&v) || inner[e].iter().any(|n| n.1 == v) {
+                continue;
+            }
+            let p = self.positions[v as usize] - a;
+            let s = p.dot(along) / (length * length);
+            let off = (p - along * s).length();
+            let within = s * length > near.rounding && (1.0 - s) * length > near.rounding;
+            // Chords lie beside each other; what crosses at an angle is not the same border.
+            let other = self.positions[edges[f].0[1 - k] as usize] - self.positions[v as usize];
+            let beside = other.cross(along).length() < BESIDE * other.length() * length;
+            let gap = open[v as usize] || edges[e].1 == 1;
+            let is_soft = self.soft[v as usize] || edges[e].0.iter().any(|w| self.soft[*w as usize]);
+            let chord = gap && is_soft && beside && off <= near.chords.min(SAGITTA * length);
+            if within && (off <= near.rounding || chord) {
+                inner[e].push((s, v));
+            }
+        }
+    }
+}
+
+/// Parts that an edge is cut into, at most.
+const MOST_PARTS: f64 = 1e5;
+/// Rounds of merging nodes across gaps, at most.
+const ROUNDS: usize = 6;
+/// Nodes of chords that are one are no farther apart than this share of an edge.
+const MERGED_EDGE: f64 = 0.4;
+/// A chord is no farther than this share of its length from its arc, if one of eight closes a circle.
+const SAGITTA: f64 = 0.2;
+/// Sine of the angle between chords of the same border, at most.
+const BESIDE: f64 = 0.5;
+
+/// Pairs of nodes at most `distance` apart, in ascending order. O(n log n).
+fn near_pairs(positions: &[DVec3], nodes: &[u32], distance: f64) -> Vec<(u32, u32)> {
+    let mut order: Vec<u32> = nodes.to_vec();
+    // A direction in which regular parts have few nodes level.
+    let key = |v: u32| positions[v as usize].dot(DVec3::new(0.743, 0.557, 0.371));
+    order.sort_by(|a, b| key(*a).total_cmp(&key(*b)).then(a.cmp(b)));
+    let mut pairs = Vec::new();
+    for (i, &a) in order.iter().enumerate() {
+        for &b in &order[i + 1..] {
+            if key(b) - key(a) > distance {
+                break;
+            }
+            if positions[a as usize].distance(positions[b as usize]) <= distance {
+                pairs.push((a.min(b), a.max(b)));
+            }
+        }
+    }
+    pairs.sort_unstable();
+    pairs
+}
+
+/// Where two segments that are not parallel cross, as shares of their lengths, both inside.
+fn crossing(a: DVec3, b: DVec3, c: DVec3, d: DVec3, distance: f64) -> Option<(f64, f64)> {
+    let (u, v, w) = (b - a, d - c, c - a);
+    let normal = u.cross(v);
+    let square = normal.length_squared();
+    if square < 1e-6 * u.length_squared() * v.length_squared() {
+        return None;
+    }
+    let (s, t) = (w.cross(v).dot(normal) / square, w.cross(u).dot(normal) / square);
+    let (ends_u, ends_v) = (distance / u.length(), distance / v.length());
+    let inside = s > ends_u && s < 1.0 - ends_u && t > ends_v && t < 1.0 - ends_v;
+    (inside && (a + u * s).distance(c + v * t) <= distance).then_some((s, t))
+}

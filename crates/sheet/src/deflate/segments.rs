@@ -1,0 +1,343 @@
+//! Segmentation of a skin into face groups: planes, and smooth pieces between sharp edges.
+//!
+//! A plane face is told from a facet of a curved one by its surroundings, not by numbers of triangles: a facet has
+//! neighbours about as wide as itself behind its smooth edges, a plane face has none or narrow ones.
+
+use glam::DVec3;
+
+use super::plane::Plane;
+use super::solid::Solid;
+
+/// Edges that fold by more than this are sharp: no tessellation of a smooth face is so coarse.
+pub(super) const SHARP: f64 = 40.0 / 180.0 * std::f64::consts::PI;
+/// Faces whose nodes are within this share of the solid's size of one plane are in that plane; single-precision files
+/// hold coordinates to 6e-8 of it.
+const COPLANAR: f64 = 1e-6;
+/// Normals in one plane differ by less than this, in radians, where the faces are not so thin that rounding turns them.
+const COPLANAR_TURN: f64 = 2e-3;
+/// A plane face is this many times wider than the facets of the curved faces that it runs into.
+const WIDER: f64 = 3.0;
+/// So many regions are looked at between two facets.
+const MOST_BETWEEN: usize = 64;
+/// Below this fold, in radians, edges of a plane face say nothing: the surface may just be finely meshed.
+const SLIGHT_FOLD: f64 = 1.0 / 180.0 * std::f64::consts::PI;
+
+const NONE: u32 = u32::MAX;
+
+/// A face group of the skin.
+#[derive(Clone, Debug)]
+pub(super) struct Group {
+    /// Its faces, ascending.
+    pub(super) faces: Vec<u32>,
+    /// Its plane, if it has one; the normal points outward.
+    pub(super) plane: Option<Plane>,
+    /// Area in mm².
+    pub(super) area: f64,
+}
+
+/// The skin cut into groups.
+#[derive(Debug)]
+pub(super) struct Segments {
+    pub(super) groups: Vec<Group>,
+    /// Group of every face.
+    pub(super) of_face: Vec<u32>,
+}
+
+impl Segments {
+    /// Cuts a skin into groups. O(n log n).
+    pub(super) fn new(solid: &Solid) -> Self {
+        let regions = Regions::new(solid);
+        let is_plane = regions.planes(solid);
+        let mut of_face = vec![NONE; solid.len() as usize];
+        let mut groups = Vec::new();
+        let mut stack = Vec::new();
+        for seed in 0..solid.len() {
+            if of_face[seed as usize] != NONE {
+                continue;
+            }
+            let number = groups.len() as u32;
+            let region = regions.of_face[seed as usize];
+            let plane = is_plane[region as usize];
+            let mut faces = Vec::new();
+            of_face[seed as usize] = number;
+            stack.push(seed);
+            while let Some(f) = stack.pop() {
+                faces.push(f);
+                for h in 3 * f..3 * f + 3 {
+                    let g = solid.across(h);
+                    let other = regions.of_face[g as usize];
+                    let together = if plane {
+                        other == region
+                    } else {
+                        !is_plane[other as usize] && solid.fold_cosine(h) > SHARP.cos()
+                    };
+                    if of_face[g as usize] == NONE && together {
+                        of_face[g as usize] = number;
+                        stack.push(g);
+                    }
+                }
+            }
+            faces.sort_unstable();
+            let area = faces.iter().map(|f| solid.areas[*f as usize]).sum();
+            let plane = plane.then(|| fitted_plane(solid, &faces));
+            groups.push(Group { faces, plane, area });
+        }
+        Self { groups, of_face }
+    }
+
+    /// Makes groups of their own of sets of faces.
+    pub(super) fn split_off(&mut self, parts: &[Vec<u32>], solid: &Solid) {
+        for part in parts {
+            let number = self.groups.len() as u32;
+            let area = part.iter().map(|f| solid.areas[*f as usize]).sum();
+            for &f in part {
+                self.of_face[f as usize] = number;
+            }
+            self.groups.push(Group { faces: part.clone(), plane: None, area });
+        }
+        let of_face = &self.of_face;
+        for (g, group) in (0u32..).zip(&mut self.groups) {
+            group.faces.retain(|f| of_face[*f as usize] == g);
+            group.area = group.faces.iter().map(|f| solid.areas[*f as usize]).sum();
+        }
+    }
+
+    /// The group of a face.
+    pub(super) fn of(&self, f: u32) -> u32 {
+        self.of_face[f as usize]
+    }
+
+    /// A group by its number.
+    pub(super) fn group(&self, g: u32) -> &Group {
+        &self.groups[g as usize]
+    }
+}
+
+/// The plane of faces that are in one.
+fn fitted_plane(solid: &Solid, faces: &[u32]) -> Plane {
+    let origin = solid.centroid(faces[0]);
+    let (mut normal, mut moment, mut area) = (DVec3::ZERO, DVec3::ZERO, 0.0);
+    for &f in faces {
+        let a = solid.areas[f as usize];
+        normal += solid.normals[f as usize] * a;
+        moment += (solid.centroid(f) - origin) * a;
+        area += a;
+    }
+    let normal = Some(normal.normalize_or_zero()).filter(|n| *n != DVec3::ZERO);
+    let normal = normal.unwrap_or(solid.normals[faces[0] as usize]);
+    let point = if area > 0.0 { origin + moment / area } else { origin };
+    Plane { normal, offset: normal.dot(point) }
+}
+
+/// Largest connected sets of faces in one plane.
+struct Regions {
+    of_face: Vec<u32>,
+    faces: Vec<Vec<u32>>,
+    /// Mean normals.
+    normals: Vec<DVec3>,
+    /// Neighbours behind smooth edges, ordered by region, then by neighbour.
+    beside: Vec<Beside>,
+}
+
+/// A region behind the smooth edges of another.
+#[derive(Clone, Copy, Debug)]
+struct Beside {
+    region: u32,
+    other: u32,
+    /// Length of the edges in mm.
+    length: f64,
+    /// Mean fold at them, in radians.
+    fold: f64,
+}
+
+impl Regions {
+    fn new(solid: &Solid) -> Self {
+        let n = solid.len();
+        // Large faces first: their planes are the surest.
+        let mut seeds: Vec<u32> = (0..n).collect();
+        seeds.sort_by(|f, g| solid.areas[*g as usize].total_cmp(&solid.areas[*f as usize]).then(f.cmp(g)));
+        let mut of_face = vec![NONE; n as usize];
+        let mut faces: Vec<Vec<u32>> = Vec::new();
+        let tolerance = COPLANAR * solid.size;
+        let mut stack = Vec::new();
+        for seed in seeds {
+            if of_face[seed as usize] != NONE {
+                continue;
+            }
+            let number = faces.len() as u32;
+            let normal = solid.normals[seed as usize];
+            let offset = normal.dot(solid.centroid(seed));
+            let mut own = Vec::new();
+            of_face[seed as usize] = number;
+            stack.push(seed);
+            while let Some(f) = stack.pop() {
+                own.push(f);
+                for h in 3 * f..3 * f + 3 {
+                    let g = solid.across(h);
+                    if of_face[g as usize] != NONE {
+                        continue;
+                    }
+                    let corners = solid.mesh.corners(g);
+                    let near = corners.iter().all(|p| (normal.dot(*p) - offset).abs() < tolerance);
+                    let same_side = solid.normals[g as usize].dot(normal) > 0.5;
+                    if near && same_side && is_turned_little(solid, g, normal, &corners, tolerance) {
+                        of_face[g as usize] = number;
+                        stack.push(g);
+                    }
+                }
+            }
+            faces.push(own);
+        }
+        let normal = |own: &Vec<u32>| -> DVec3 {
+            own.iter().map(|f| solid.normals[*f as usize] * solid.areas[*f as usize]).sum()
+        };
+        let normals = faces.iter().map(|own| normal(own).normalize_or_zero()).collect();
+        let beside = Self::smooth_neighbours(solid, &of_face);
+        Self { of_face, faces, normals, beside }
+    }
+
+    /// Whether each region is a plane face, or else facets of a curved one. O(n).
+    fn planes(&self, solid: &Solid) -> Vec<bool> {
+        let widths: Vec<f64> = self.faces.iter().map(|faces| width(solid, faces)).collect();
+        let whole_stars = self.regions_with_whole_stars(solid);
+        let mut is_plane: Vec<bool> =
+            (0..self.faces.len()).map(|r| self.looks_plane(r as u32, &widths, whole_stars[r])).collect();
+        self.settle_bends(&mut is_plane);
+        is_plane
+    }
+
+    /// Whether some node has nothing but faces of the region about it: in a curved face, every node bends it.
+    fn regions_with_whole_stars(&self, solid: &Solid) -> Vec<bool> {
+        const MIXED: u32 = u32::MAX - 1;
+        let mut region_at = vec![NONE; solid.mesh.positions.len()];
+        for (face, &region) in solid.mesh.faces.iter().zip(&self.of_face) {
+            for &v in face {
+                let at = &mut region_at[v as usize];
+                *at = if *at == NONE || *at == region { region } else { MIXED };
+            }
+        }
+        let mut whole = vec![false; self.faces.len()];
+        for region in region_at.into_iter().filter(|r| *r < MIXED) {
+            whole[region as usize] = true;
+        }
+        whole
+    }
+
+    /// A facet of a curved face has, behind its smooth edges, another about as wide that is turned by less than a sharp edge;
+    /// slivers may lie between (a thickened mesh has one at every fold). A plane face that runs into a fillet has not.
+    fn looks_plane(&self, region: u32, widths: &[f64], whole_star: bool) -> bool {
+        let beside = self.beside(region);
+        let smooth: f64 = beside.iter().map(|b| b.length).sum();
+        if smooth == 0.0 {
+            return true;
+        }
+        let fold = beside.iter().map(|b| b.length * b.fold).sum::<f64>() / smooth;
+        let gentle: f64 = beside
+            .iter()
+            .filter(|b| self.leads_to_a_wide_one(region, b.other, widths))
+            .map(|b| b.length)
+            .sum();
+        fold > SLIGHT_FOLD && (whole_star || gentle < 0.5 * smooth)
+    }
+
+    /// Whether over narrow regions, from one behind an edge of `region` on, a wide one is reached that is not much turned.
+    fn leads_to_a_wide_one(&self, region: u32, first: u32, widths: &[f64]) -> bool {
+        let narrow = widths[region as usize] / WIDER;
+        let mut seen = vec![region, first];
+        let mut at = 1;
+        while at < seen.len() && seen.len() < MOST_BETWEEN {
+            let r = seen[at];
+            at += 1;
+            if self.normals[region as usize].dot(self.normals[r as usize]) < SHARP.cos() {
+                continue;
+            }
+            if widths[r as usize] >= narrow {
+                return true;
+            }
+            for b in self.beside(r) {
+                if !seen.contains(&b.other) {
+                    seen.push(b.other);
+                }
+            }
+        }
+        false
+    }
+
+    /// The regions behind the smooth edges of one.
+    fn beside(&self, region: u32) -> &[Beside] {
+        let from = self.beside.partition_point(|b| b.region < region);
+        let to = self.beside.partition_point(|b| b.region <= region);
+        &self.beside[from..to]
+    }
+
+    fn smooth_neighbours(solid: &Solid, of_face: &[u32]) -> Vec<Beside> {
+        let mut all = Vec::new();
+        for h in 0..3 * solid.len() {
+            let [region, other] = [h / 3, solid.across(h)].map(|f| of_face[f as usize]);
+            let cosine = solid.fold_cosine(h);
+            if region != other && cosine > SHARP.cos() {
+                let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
+                let fold = cosine.clamp(-1.0, 1.0).acos();
+                all.push(Beside { region, other, length: a.distance(b), fold });
+            }
+        }
+        all.sort_by_key(|b| (b.region, b.other));
+        let same = |a: &Beside, b: &Beside| (a.region, a.other) == (b.region, b.other);
+        let joined = |run: &[Beside]| {
+            let length: f64 = run.iter().map(|b| b.length).sum();
+            let fold = run.iter().map(|b| b.length * b.fold).sum::<f64>() / length.max(f64::MIN_POSITIVE);
+            Beside { length, fold, ..run[0] }
+        };
+        all.chunk_by(same).map(joined).collect()
+    }
+
+    /// Facets that run into one other facet only, and that one into no third: a plate bent once, not a curved one.
+    fn settle_bends(&self, is_plane: &mut [bool]) {
+        let smooth_neighbours = |region: u32, is_plane: &[bool]| -> Vec<u32> {
+            let curved = self.beside(region).iter().filter(|b| !is_plane[b.other as usize]);
+            curved.map(|b| b.other).take(2).collect()
+        };
+        let mut settled = Vec::new();
+        for region in (0..self.faces.len() as u32).filter(|r| !is_plane[*r as usize]) {
+            let alone = match smooth_neighbours(region, is_plane)[..] {
+                [] => true,
+                [other] => smooth_neighbours(other, is_plane) == [region],
+                _ => false,
+            };
+            if alone {
+                settled.push(region);
+            }
+        }
+        for region in settled {
+            is_plane[region as usize] = true;
+        }
+    }
+}
+
+/// Whether a face has about the given normal. One as thin as the tolerance may stand at any angle and still be near.
+fn is_turned_little(solid: &Solid, f: u32, normal: DVec3, corners: &[DVec3; 3], tolerance: f64) -> bool {
+    let turn = solid.normals[f as usize].cross(normal).length_squared();
+    if turn < COPLANAR_TURN * COPLANAR_TURN {
+        return true;
+    }
+    let height = 2.0 * solid.areas[f as usize] / longest_side(corners);
+    turn.sqrt() < 2.0 * tolerance / height.max(f64::MIN_POSITIVE)
+}
+
+fn longest_side([a, b, c]: &[DVec3; 3]) -> f64 {
+    a.distance(*b).max(b.distance(*c)).max(c.distance(*a))
+}
+
+/// About how wide some faces are: area over diameter.
+fn width(solid: &Solid, faces: &[u32]) -> f64 {
+    let (mut lo, mut hi) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let mut area = 0.0;
+    for &f in faces {
+        for p in solid.mesh.corners(f) {
+            lo = lo.min(p);
+            hi = hi.max(p);
+        }
+        area += solid.areas[f as usize];
+    }
+    area / (hi - lo).length().max(f64::MIN_POSITIVE)
+}

@@ -1,0 +1,144 @@
+//! Which of two walls that lie opposite to each other becomes the mid-surface.
+//!
+//! Both would do in the paper's drawings. A mesh wants the one that knows more: where a rib stands on a plate, the plate's
+//! face on that side is cut along the rib and the other is not; where a plate is folded, the inner faces grow when
+//! they move to the middle and the outer ones shrink, past their own nodes if they are finely meshed.
+
+use super::blends::Blends;
+use super::plane::Plane;
+use super::segments::{SHARP, Segments};
+use super::solid::Solid;
+use super::walls::Walls;
+
+/// Union–find whose members know on which of two sides they are.
+struct Parity {
+    parent: Vec<u32>,
+    flipped: Vec<bool>,
+}
+
+impl Parity {
+    fn new(n: usize) -> Self {
+        Self { parent: (0..n as u32).collect(), flipped: vec![false; n] }
+    }
+
+    /// The representative, and whether `x` is on the other side of it.
+    fn find(&mut self, x: u32) -> (u32, bool) {
+        let (mut root, mut side) = (x, false);
+        while self.parent[root as usize] != root {
+            side ^= self.flipped[root as usize];
+            root = self.parent[root as usize];
+        }
+        // Paths are shortened on the way.
+        let (mut at, mut at_side) = (x, side);
+        while self.parent[at as usize] != root && at != root {
+            let (next, flip) = (self.parent[at as usize], self.flipped[at as usize]);
+            self.parent[at as usize] = root;
+            self.flipped[at as usize] = at_side;
+            at = next;
+            at_side ^= flip;
+        }
+        (root, side)
+    }
+
+    /// Says that two are on one side, or not; `false` if the contrary is known.
+    fn relate(&mut self, a: u32, b: u32, other_side: bool) -> bool {
+        let ((ra, sa), (rb, sb)) = (self.find(a), self.find(b));
+        if ra == rb {
+            return (sa ^ sb) == other_side;
+        }
+        self.parent[rb as usize] = ra;
+        self.flipped[rb as usize] = sa ^ sb ^ other_side;
+        true
+    }
+}
+
+/// The groups that become the mid-surface: of each pair of walls one. O(n log n).
+pub(super) fn kept_groups(
+    solid: &Solid,
+    segments: &Segments,
+    walls: &Walls,
+    blends: &Blends,
+    mids: &[Vec<Plane>],
+) -> Vec<bool> {
+    let n = segments.groups.len();
+    let mut parity = Parity::new(n);
+    let creases = Creases::new(solid, segments, walls, blends);
+    // Smooth neighbours stay together: nothing else would join them.
+    for &[a, b] in &creases.smooth {
+        parity.relate(a, b, false);
+    }
+    let mut order: Vec<usize> = (0..walls.pairs.len()).collect();
+    order.sort_by(|a, b| walls.pairs[*b].area.total_cmp(&walls.pairs[*a].area).then(a.cmp(b)));
+    for k in order {
+        let pair = walls.pairs[k];
+        let least = segments.group(pair.group).area.min(segments.group(pair.partner).area);
+        if pair.area > TOUCHED * least {
+            parity.relate(pair.group, pair.partner, true);
+        }
+    }
+    // What speaks for each side of each set.
+    let mut score = vec![[0.0f64; 2]; n];
+    let mut faces = vec![[0usize; 2]; n];
+    for g in (0..n as u32).filter(|g| walls.is_wall[*g as usize]) {
+        let (root, side) = parity.find(g);
+        let group = segments.group(g);
+        let mid_planes = mids[g as usize].len();
+        let wide = group.area.sqrt();
+        // A wall with two middles would have to be cut in two.
+        let split = (mid_planes.max(1) - 1) as f64 * 4.0 * wide;
+        score[root as usize][usize::from(side)] += creases.concave[g as usize] - split;
+        faces[root as usize][usize::from(side)] += group.faces.len();
+    }
+    (0..n as u32)
+        .map(|g| {
+            let (root, side) = parity.find(g);
+            let ([a, b], [few, many]) = (score[root as usize], faces[root as usize]);
+            let tolerance = 1e-6 * solid.size;
+            let second = if (a - b).abs() > tolerance { b > a } else { many < few };
+            walls.is_wall[g as usize] && side == second
+        })
+        .collect()
+}
+
+/// A pair that covers less than this share of the smaller group only touches.
+const TOUCHED: f64 = 0.1;
+
+/// How walls meet walls.
+struct Creases {
+    /// Pairs of walls that run into each other without a fold.
+    smooth: Vec<[u32; 2]>,
+    /// Length of the sharp edges to other walls, and of the edges to blends: hollow ones count, proud ones count against.
+    concave: Vec<f64>,
+}
+
+impl Creases {
+    fn new(solid: &Solid, segments: &Segments, walls: &Walls, blends: &Blends) -> Self {
+        let mut creases = Self { smooth: Vec::new(), concave: vec![0.0; segments.groups.len()] };
+        for h in 0..3 * solid.len() {
+            let [g, other] = [h / 3, solid.across(h)].map(|f| segments.of(f));
+            let is_wall = |g: u32| walls.is_wall[g as usize];
+            if g == other || !is_wall(g) || !(is_wall(other) || blends.is_blend[other as usize]) {
+                continue;
+            }
+            if !is_wall(other) {
+                creases.count(solid, g, h);
+                continue;
+            }
+            let both_planes = [g, other].iter().all(|g| segments.group(*g).plane.is_some());
+            if solid.fold_cosine(h) > SHARP.cos() && !both_planes {
+                creases.smooth.push([g.min(other), g.max(other)]);
+            } else {
+                creases.count(solid, g, h);
+            }
+        }
+        creases.smooth.sort_unstable();
+        creases.smooth.dedup();
+        creases
+    }
+
+    fn count(&mut self, solid: &Solid, g: u32, h: u32) {
+        let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
+        let length = a.distance(b);
+        self.concave[g as usize] += if solid.is_convex(h) { -length } else { length };
+    }
+}

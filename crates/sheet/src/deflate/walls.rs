@@ -1,0 +1,285 @@
+//! Which groups are walls, and which groups lie opposite to each other (Sheen et al. 2008, section 6.1).
+
+use glam::DVec3;
+use mesh_kernel::query::RayCaster;
+use rayon::prelude::*;
+
+use super::DeflateOptions;
+use super::segments::{SHARP, Segments};
+use super::solid::Solid;
+
+/// Facets of curved walls that lie opposite to each other may be inclined by this much, in radians: both are chords.
+pub(super) const FACET_LEAN: f64 = 35.0 / 180.0 * std::f64::consts::PI;
+/// A group is a wall if this share of it has a partner; a curved one, a fillet's sides of which look at walls by chance,
+/// needs more.
+const PAIRED_PLANE: f64 = 0.3;
+const PAIRED_CURVED: f64 = 0.6;
+/// Thicknesses of one part differ from one to the next by no more than this factor; what is beyond is not thickness but
+/// the part's extent.
+const THICKNESS_GAP: f64 = 2.5;
+/// A thickness told from the solid is no more than this share of how far its walls reach.
+const SLENDER: f64 = 0.35;
+/// A flare meets the wall that it runs into at less than this, in radians.
+const OBLIQUE: f64 = 70.0 / 180.0 * std::f64::consts::PI;
+/// Facets lean by no more than the folds about them and this, in radians, where their walls are parallel.
+const FLARE: f64 = 5.0 / 180.0 * std::f64::consts::PI;
+/// Walls are thicker than this share of what walls are on the whole.
+const HAIR: f64 = 0.03;
+/// Walls are wider than this share of it.
+const TRIFLE: f64 = 0.3;
+/// Neighbours are as thick if they are by this share.
+const ALIKE: f64 = 0.1;
+/// Rays begin this far inside, over the solid's size.
+const START: f64 = 1e-9;
+
+/// What is opposite to a point of the skin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Opposite {
+    /// The face there.
+    pub(super) face: u32,
+    /// How far through the material, in mm.
+    pub(super) distance: f64,
+}
+
+/// Two groups that lie opposite to each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Pair {
+    /// The group that was looked from.
+    pub(super) group: u32,
+    /// The one that was seen.
+    pub(super) partner: u32,
+    /// Area of `group` from which `partner` is seen, in mm².
+    pub(super) area: f64,
+    /// Mean distance in mm.
+    pub(super) thickness: f64,
+}
+
+/// The walls of a solid.
+#[derive(Debug)]
+pub(super) struct Walls {
+    caster: RayCaster,
+    /// Walls are thinner than this, in mm.
+    pub(super) max_thickness: f64,
+    max_draft: f64,
+    /// Ordered by group, then by partner.
+    pub(super) pairs: Vec<Pair>,
+    /// Whether each group is a wall.
+    pub(super) is_wall: Vec<bool>,
+    /// Share of the skin that has a partner.
+    pub(super) paired_share: f64,
+}
+
+/// A look through the material from a point of a face.
+struct Look {
+    group: u32,
+    area: f64,
+    seen: Option<(u32, f64)>,
+}
+
+impl Walls {
+    /// Looks through the material from everywhere. O(n log n).
+    pub(super) fn new(solid: &Solid, segments: &Segments, options: &DeflateOptions) -> Self {
+        let mut walls = Self {
+            caster: RayCaster::new(&solid.mesh),
+            max_thickness: f64::INFINITY,
+            max_draft: options.max_draft,
+            pairs: Vec::new(),
+            is_wall: Vec::new(),
+            paired_share: 0.0,
+        };
+        let total: f64 = solid.areas.iter().sum();
+        let cell = total / SAMPLES;
+        let looks: Vec<Vec<Look>> =
+            (0..solid.len()).into_par_iter().map(|f| walls.looks(solid, segments, f, cell)).collect();
+        let mut looks: Vec<Look> = looks.into_iter().flatten().collect();
+        walls.max_thickness = options.max_thickness.unwrap_or_else(|| told_thickness(&looks, total));
+        for look in &mut looks {
+            look.seen = look.seen.filter(|(_, s)| *s <= walls.max_thickness);
+        }
+        let paired: f64 = looks.iter().filter(|l| l.seen.is_some()).map(|l| l.area).sum();
+        walls.paired_share = paired / total;
+        walls.pairs = pairs_of(&looks);
+        let thick: Vec<Option<f64>> = (0..segments.groups.len() as u32)
+            .map(|g| {
+                let group = segments.group(g);
+                let least = if group.plane.is_some() { PAIRED_PLANE } else { PAIRED_CURVED };
+                let partners = walls.partners(g);
+                let paired: f64 = partners.iter().map(|p| p.area).sum();
+                let thick = partners.iter().map(|p| p.area * p.thickness).sum::<f64>() / paired;
+                (paired > 0.0 && paired >= least * group.area).then_some(thick)
+            })
+            .collect();
+        let walled = || thick.iter().zip(&segments.groups).filter_map(|(t, g)| t.map(|t| (t, g.area)));
+        let typical = walled().map(|(t, a)| t * a).sum::<f64>() / walled().map(|(_, a)| a).sum::<f64>();
+        // Splinters of a hair's thickness are left where meshes were cut; they are no walls.
+        let thick: Vec<Option<f64>> = thick.into_iter().map(|t| t.filter(|t| *t > HAIR * typical)).collect();
+        walls.is_wall = thick.iter().map(Option::is_some).collect();
+        for (g, group) in (0u32..).zip(&segments.groups) {
+            // What is not even as wide as it is thick is the end of something, unless it goes on in a wall that is as thick.
+            let width = |t: f64| t.max(TRIFLE * typical);
+            let Some(own) = thick[g as usize].filter(|t| group.area <= width(*t) * width(*t)) else {
+                continue;
+            };
+            let mut beside =
+                group.faces.iter().flat_map(|f| 3 * f..3 * f + 3).map(|h| segments.of(solid.across(h)));
+            let alike = |other: f64| (other - own).abs() < ALIKE * own;
+            walls.is_wall[g as usize] = beside.any(|o| o != g && thick[o as usize].is_some_and(alike));
+        }
+        // Who is no wall is nobody's partner.
+        let is_wall = &walls.is_wall;
+        walls.pairs.retain(|p| is_wall[p.group as usize] && is_wall[p.partner as usize]);
+        walls
+    }
+
+    /// The pairs that begin with a group.
+    pub(super) fn partners(&self, group: u32) -> &[Pair] {
+        let from = self.pairs.partition_point(|p| p.group < group);
+        let to = self.pairs.partition_point(|p| p.group <= group);
+        &self.pairs[from..to]
+    }
+
+    /// What is opposite to a point of a face, if it is near enough and looks back.
+    pub(super) fn opposite(&self, solid: &Solid, segments: &Segments, f: u32, p: DVec3) -> Option<Opposite> {
+        let inward = -solid.normals[f as usize];
+        let hit = self.caster.first(p, inward, START * solid.size, self.max_thickness)?;
+        let planes = [f, hit.face].map(|f| segments.group(segments.of(f)).plane);
+        let lean = if planes.iter().all(Option::is_none) {
+            FACET_LEAN
+        } else {
+            // Both lean by half of the draft; a curved face next to a plane one is seen through its chords.
+            self.max_draft.max(SMALLEST_LEAN)
+        };
+        (solid.normals[hit.face as usize].dot(inward) >= lean.cos())
+            .then_some(Opposite { face: hit.face, distance: hit.distance })
+    }
+
+    /// The first thing met from a point in a direction, within the largest thickness.
+    pub(super) fn first(&self, solid: &Solid, p: DVec3, direction: DVec3) -> Option<Opposite> {
+        let hit = self.caster.first(p, direction, START * solid.size, self.max_thickness)?;
+        Some(Opposite { face: hit.face, distance: hit.distance })
+    }
+
+    /// Where curved walls flare into fillets: sets of faces at their borders that look past the opposite wall. Smooth facets hide
+    /// where a wall ends and a fillet begins; what is opposite tells.
+    pub(super) fn flares(&self, solid: &Solid, segments: &Segments) -> Vec<Vec<u32>> {
+        let fold = |f: u32| {
+            let cosines = (3 * f..3 * f + 3).map(|h| solid.fold_cosine(h)).filter(|c| *c > SHARP.cos());
+            cosines.fold(1.0, f64::min).clamp(-1.0, 1.0).acos()
+        };
+        let curved = |f: u32| {
+            let g = segments.of(f);
+            self.is_wall[g as usize] && segments.group(g).plane.is_none()
+        };
+        let looks_past: Vec<bool> = (0..solid.len())
+            .into_par_iter()
+            .map(|f| {
+                if !curved(f) {
+                    return false;
+                }
+                let Some(opposite) = self.opposite(solid, segments, f, solid.centroid(f)) else {
+                    return true;
+                };
+                let lean = solid.normals[f as usize].dot(-solid.normals[opposite.face as usize]);
+                let allowed = fold(f).max(fold(opposite.face)) + FLARE;
+                lean < allowed.cos()
+            })
+            .collect();
+        let mut seen = vec![false; solid.len() as usize];
+        let mut found = Vec::new();
+        for seed in (0..solid.len()).filter(|f| looks_past[*f as usize]) {
+            if seen[seed as usize] {
+                continue;
+            }
+            let (g, mut part, mut at) = (segments.of(seed), vec![seed], 0);
+            seen[seed as usize] = true;
+            let mut border = 0.0;
+            while at < part.len() {
+                for h in 3 * part[at]..3 * part[at] + 3 {
+                    let other = solid.across(h);
+                    let to = segments.of(other);
+                    if to != g && self.is_wall[to as usize] && solid.fold_cosine(h) > OBLIQUE.cos() {
+                        let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
+                        border += a.distance(b);
+                    }
+                    if to == g && looks_past[other as usize] && !seen[other as usize] {
+                        seen[other as usize] = true;
+                        part.push(other);
+                    }
+                }
+                at += 1;
+            }
+            // A fillet runs along another wall, and is narrow.
+            let area: f64 = part.iter().map(|f| solid.areas[*f as usize]).sum();
+            if border > 0.0 && area < self.max_thickness * border {
+                part.sort_unstable();
+                found.push(part);
+            }
+        }
+        found
+    }
+
+    fn looks(&self, solid: &Solid, segments: &Segments, f: u32, cell: f64) -> Vec<Look> {
+        let area = solid.areas[f as usize];
+        let n = ((area / cell).sqrt().ceil() as u32).clamp(1, MOST_ROWS);
+        let [a, b, c] = solid.mesh.corners(f);
+        let part = area / f64::from(n * n);
+        let group = segments.of(f);
+        let look = |p: DVec3| Look {
+            group,
+            area: part,
+            seen: self.opposite(solid, segments, f, p).map(|o| (segments.of(o.face), o.distance)),
+        };
+        // The middles of the n² parts that equal divisions of the sides make.
+        let step = 1.0 / f64::from(n);
+        let mut looks = Vec::with_capacity((n * n) as usize);
+        for i in 0..n {
+            for j in 0..n - i {
+                let at = |u: f64, v: f64| a + (b - a) * (u * step) + (c - a) * (v * step);
+                let (i, j) = (f64::from(i), f64::from(j));
+                looks.push(look(at(i + 1.0 / 3.0, j + 1.0 / 3.0)));
+                if j + i + 1.0 < f64::from(n) {
+                    looks.push(look(at(i + 2.0 / 3.0, j + 2.0 / 3.0)));
+                }
+            }
+        }
+        looks
+    }
+}
+
+/// About how many looks there are in all, beside one a face.
+const SAMPLES: f64 = 4000.0;
+/// A face is looked through from at most the square of this many points.
+const MOST_ROWS: u32 = 32;
+/// Planes that lean less than this are parallel: files round.
+const SMALLEST_LEAN: f64 = 1e-3;
+
+/// The largest thickness, told from the looks: the median one, and what follows on it without a gap.
+fn told_thickness(looks: &[Look], area: f64) -> f64 {
+    let mut seen: Vec<(f64, f64)> = looks.iter().filter_map(|l| Some((l.seen?.1, l.area))).collect();
+    seen.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let all: f64 = seen.iter().map(|s| s.1).sum();
+    let mut sum = 0.0;
+    let mut largest = 0.0;
+    for (thickness, part) in seen {
+        if sum >= 0.4 * all && thickness > THICKNESS_GAP * largest {
+            break;
+        }
+        largest = thickness;
+        sum += part;
+    }
+    // Walls that are seen from both sides cover half of the skin.
+    (1.02 * largest).min(SLENDER * (area / 2.0).sqrt())
+}
+
+fn pairs_of(looks: &[Look]) -> Vec<Pair> {
+    let mut seen: Vec<(u32, u32, f64, f64)> =
+        looks.iter().filter_map(|l| l.seen.map(|(partner, s)| (l.group, partner, l.area, s))).collect();
+    seen.sort_by_key(|s| (s.0, s.1));
+    let same = |a: &(u32, u32, f64, f64), b: &(u32, u32, f64, f64)| (a.0, a.1) == (b.0, b.1);
+    let pair = |run: &[(u32, u32, f64, f64)]| {
+        let area: f64 = run.iter().map(|r| r.2).sum();
+        let thickness = run.iter().map(|r| r.2 * r.3).sum::<f64>() / area.max(f64::MIN_POSITIVE);
+        Pair { group: run[0].0, partner: run[0].1, area, thickness }
+    };
+    seen.chunk_by(same).map(pair).collect()
+}

@@ -1,0 +1,300 @@
+//! Solids of known middles, deflated.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod solid_models;
+
+use mesh_kernel::TriMesh;
+use mesh_kernel::body::Body;
+use mesh_kernel::glam::DVec3;
+use mesh_kernel::query::{Adjacency, Crossings};
+use sheet::deflate::{DeflateError, DeflateOptions, Deflated, Nobody, Step, Steps, Watcher, deflate};
+use sheet::thicken::{self, ThickenOptions, thicken};
+use solid_models::{appended, plate_with_hole, prism, revolved, turned};
+
+fn deflated(solid: &TriMesh) -> Deflated {
+    deflate(solid, &DeflateOptions::default(), &Nobody).unwrap()
+}
+
+#[track_caller]
+fn near(value: f64, wanted: f64, relative: f64) {
+    assert!((value - wanted).abs() <= relative * wanted.abs(), "{value} is not {wanted}");
+}
+
+/// Patches, joints, free loops, parts.
+#[track_caller]
+fn has_topology(thin: &Deflated, wanted: [usize; 4]) {
+    let r = &thin.report;
+    assert_eq!([r.patches, r.joints, r.free_loops, r.components], wanted, "{r:?}");
+    assert_eq!((r.self_intersections, r.lost_edges), (0, 0));
+    // The kernel makes a body of it, and its counts agree.
+    let body = Body::from_tri_mesh(&thin.sheet).unwrap();
+    assert!(body.counts().identity_holds());
+    assert_eq!(body.surfaces().len(), r.patches);
+    assert_eq!(thin.thickness.len(), thin.sheet.faces.len());
+}
+
+/// Every node of the sheet is in one of the planes `normal · x = offset`.
+#[track_caller]
+fn lies_in(thin: &Deflated, planes: &[(DVec3, f64)]) {
+    for p in &thin.sheet.positions {
+        let off = planes.iter().map(|(n, d)| (n.dot(*p) - d).abs()).fold(f64::MAX, f64::min);
+        assert!(off < 1e-9, "{p} is off by {off}");
+    }
+}
+
+/// An angle of two legs, 2 thick, 40 and 30 to the middle of the bend, 50 long, along z.
+const ANGLE: [[f64; 2]; 6] = [[-1., -1.], [40., -1.], [40., 1.], [1., 1.], [1., 30.], [-1., 30.]];
+/// A T: a bar of 60 and a stem of 25, all 2 thick.
+const TEE: [[f64; 2]; 8] =
+    [[-30., -1.], [30., -1.], [30., 1.], [1., 1.], [1., 25.], [-1., 25.], [-1., 1.], [-30., 1.]];
+/// A Z of three walls: one edge is hollow on one side, one on the other.
+const ZED: [[f64; 2]; 8] =
+    [[-30., -1.], [1., -1.], [1., 19.], [30., 19.], [30., 21.], [-1., 21.], [-1., 1.], [-30., 1.]];
+
+#[test]
+fn plane_walls_have_exact_middles_however_they_are_meshed() {
+    for cells in [1, 7, 50] {
+        let angle = deflated(&prism(&ANGLE, 50.0, cells));
+        has_topology(&angle, [2, 0, 1, 1]);
+        near(angle.report.area, 50.0 * 70.0, 1e-12);
+        lies_in(&angle, &[(DVec3::X, 0.0), (DVec3::Y, 0.0)]);
+        assert!(angle.thickness.iter().all(|t| (t - 2.0).abs() < 1e-9));
+
+        let zed = deflated(&prism(&ZED, 50.0, cells));
+        has_topology(&zed, [3, 0, 1, 1]);
+        near(zed.report.area, 50.0 * 80.0, 1e-12);
+    }
+}
+
+#[test]
+fn a_rib_shares_its_nodes_with_the_wall() {
+    for cells in [1, 9] {
+        let tee = deflated(&prism(&TEE, 40.0, cells));
+        has_topology(&tee, [3, 1, 2, 1]);
+        near(tee.report.area, 40.0 * 85.0, 1e-12);
+        lies_in(&tee, &[(DVec3::X, 0.0), (DVec3::Y, 0.0)]);
+        let adjacency = Adjacency::new(&tee.sheet);
+        let joint = (0..adjacency.edges().len() as u32).filter(|e| adjacency.half_edges(*e).len() == 3);
+        let length: f64 = joint
+            .map(|e| {
+                let [a, b] = adjacency.edges()[e as usize].map(|v| tee.sheet.positions[v as usize]);
+                a.distance(b)
+            })
+            .sum();
+        near(length, 40.0, 1e-12);
+    }
+}
+
+#[test]
+fn ribs_on_both_sides_of_a_wall_are_cut_into_it() {
+    // One rib above at x = −10, one below at x = 10: neither side of the bar knows both.
+    let profile = [
+        [-30., -1.],
+        [9., -1.],
+        [9., -20.],
+        [11., -20.],
+        [11., -1.],
+        [30., -1.],
+        [30., 1.],
+        [-9., 1.],
+        [-9., 20.],
+        [-11., 20.],
+        [-11., 1.],
+        [-30., 1.],
+    ];
+    let thin = deflated(&prism(&profile, 40.0, 3));
+    has_topology(&thin, [5, 2, 3, 1]);
+    near(thin.report.area, 40.0 * (60.0 + 20.0 + 20.0), 1e-12);
+}
+
+#[test]
+fn turned_and_inside_out_it_is_the_same() {
+    let solid = turned(&prism(&TEE, 40.0, 2));
+    let thin = deflated(&solid);
+    has_topology(&thin, [3, 1, 2, 1]);
+    near(thin.report.area, 40.0 * 85.0, 1e-11);
+    let mut inside_out = solid.clone();
+    inside_out.faces.iter_mut().for_each(|f| f.swap(0, 1));
+    near(deflated(&inside_out).report.area, 40.0 * 85.0, 1e-11);
+}
+
+#[test]
+fn a_wall_with_draft_gets_its_bisector_and_an_even_thickness() {
+    // A rib from 4 at the root to 3 at the top, 40 high, on a bar 4 thick.
+    let profile =
+        [[-30., -2.], [30., -2.], [30., 2.], [2., 2.], [1.5, 42.], [-1.5, 42.], [-2., 2.], [-30., 2.]];
+    let thin = deflated(&prism(&profile, 50.0, 1));
+    has_topology(&thin, [3, 1, 2, 1]);
+    near(thin.report.area, 50.0 * (60.0 + 42.0), 1e-12);
+    lies_in(&thin, &[(DVec3::X, 0.0), (DVec3::Y, 0.0)]);
+    for f in 0..thin.sheet.faces.len() as u32 {
+        let [a, b, c] = thin.sheet.corners(f);
+        let y = (a.y + b.y + c.y) / 3.0;
+        if y > 2.0 {
+            near(thin.thickness[f as usize], 4.0 - (y - 2.0) / 40.0, 2e-3);
+        }
+    }
+}
+
+#[test]
+fn steps_in_thickness_are_joined_apart_or_aligned() {
+    let profile = [[0., 0.], [100., 0.], [100., 4.], [50., 4.], [50., 2.], [0., 2.]];
+    let solid = prism(&profile, 40.0, 4);
+    let with =
+        |steps| deflate(&solid, &DeflateOptions { steps, ..DeflateOptions::default() }, &Nobody).unwrap();
+    let joined = with(Steps::Joined);
+    has_topology(&joined, [3, 0, 1, 1]);
+    near(joined.report.area, 4040.0, 1e-12);
+    assert_eq!(joined.report.steps, 1);
+    let apart = with(Steps::Apart);
+    has_topology(&apart, [2, 0, 2, 2]);
+    near(apart.report.area, 4000.0, 1e-12);
+    let aligned = with(Steps::Aligned);
+    has_topology(&aligned, [1, 0, 1, 1]);
+    near(aligned.report.area, 4000.0, 1e-12);
+    for thin in [joined, apart, aligned] {
+        near(thin.report.thickness.min, 2.0, 1e-9);
+        near(thin.report.thickness.max, 4.0, 1e-9);
+    }
+}
+
+#[test]
+fn fillets_at_a_root_go_and_the_walls_meet() {
+    // The T with a fillet of radius 2 on either side of the stem, in six chords.
+    let mut profile = vec![[-30., -1.], [30., -1.], [30., 1.]];
+    let arc = |k: i32| std::f64::consts::FRAC_PI_2 * f64::from(k) / 6.0;
+    profile.extend((0..=6).map(|k| [3.0 - 2.0 * arc(k).sin(), 3.0 - 2.0 * arc(k).cos()]));
+    profile.extend([[1., 25.], [-1., 25.]]);
+    profile.extend((0..=6).rev().map(|k| [-3.0 + 2.0 * arc(k).sin(), 3.0 - 2.0 * arc(k).cos()]));
+    profile.push([-30., 1.]);
+    for cells in [1, 8] {
+        let thin = deflated(&prism(&profile, 40.0, cells));
+        has_topology(&thin, [3, 1, 2, 1]);
+        near(thin.report.area, 40.0 * 85.0, 1e-12);
+        let kinds: Vec<&str> = thin.report.features.iter().map(|f| f.kind).collect();
+        assert_eq!(kinds, ["fillet", "fillet"]);
+        thin.report.features.iter().for_each(|f| near(f.size, 2.0, 0.05));
+    }
+}
+
+#[test]
+fn holes_stay_unless_they_are_small_and_not_kept() {
+    let plate = plate_with_hole(60.0, 40.0, 2.0, 3.0, 24);
+    let with = |simplify, keep: &[usize]| {
+        let keep = keep.to_vec();
+        deflate(&plate, &DeflateOptions { simplify, keep, ..DeflateOptions::default() }, &Nobody).unwrap()
+    };
+    let hole = 24.0 / 2.0 * 9.0 * (std::f64::consts::TAU / 24.0).sin();
+    for thin in [with(None, &[]), with(Some(5.0), &[]), with(Some(7.0), &[0])] {
+        has_topology(&thin, [1, 0, 2, 1]);
+        near(thin.report.area, 2400.0 - hole, 1e-12);
+        assert!(!thin.report.features[0].removed);
+    }
+    let thin = with(Some(7.0), &[]);
+    has_topology(&thin, [1, 0, 1, 1]);
+    near(thin.report.area, 2400.0, 1e-12);
+    let feature = &thin.report.features[0];
+    assert_eq!((feature.kind, feature.removed), ("hole", true));
+    near(feature.size, 6.0, 1e-9);
+}
+
+#[test]
+fn round_walls_follow_their_tessellation() {
+    // A tube of mid radius 20 and a dome of mid radius 30, 2 thick.
+    let tube = deflated(&revolved(&[[19., 0.], [21., 0.], [21., 50.], [19., 50.]], 48, true));
+    has_topology(&tube, [1, 0, 2, 1]);
+    let chords = 48.0 * 2.0 * 20.0 * (std::f64::consts::PI / 48.0).sin();
+    near(tube.report.area, 50.0 * chords, 1e-3);
+    tube.thickness.iter().for_each(|t| near(*t, 2.0, 4e-3));
+    let arc = |r: f64, k: i32| {
+        let angle = std::f64::consts::FRAC_PI_2 * f64::from(k) / 12.0;
+        [r * angle.sin(), r * angle.cos()]
+    };
+    let profile: Vec<[f64; 2]> =
+        (0..=12).map(|k| arc(29.0, k)).chain((0..=12).rev().map(|k| arc(31.0, k))).collect();
+    let dome = deflated(&revolved(&profile, 48, false));
+    has_topology(&dome, [1, 0, 1, 1]);
+    near(dome.report.area, std::f64::consts::TAU * 900.0, 5e-3);
+    for p in &dome.sheet.positions {
+        near(p.length(), 30.0, 1e-3);
+    }
+}
+
+#[test]
+fn thickened_it_comes_back() {
+    // A box with a lid and a partition: closed cells, joints of three.
+    let solid = thicken(&solid_models::boxed(), &ThickenOptions::new(1.5), &thicken::Nobody).unwrap().solid;
+    let thin = deflated(&solid);
+    near(thin.report.area, solid_models::boxed_area(), 1e-11);
+    assert_eq!((thin.report.patches, thin.report.joints, thin.report.free_loops), (11, 1, 0));
+    assert!(thin.thickness.iter().all(|t| (t - 1.5).abs() < 1e-9));
+}
+
+#[test]
+fn a_finer_mesh_on_request_keeps_joints() {
+    let options = DeflateOptions { edge_length: Some(3.0), ..DeflateOptions::default() };
+    let thin = deflate(&prism(&TEE, 40.0, 1), &options, &Nobody).unwrap();
+    has_topology(&thin, [3, 1, 2, 1]);
+    near(thin.report.area, 40.0 * 85.0, 1e-11);
+    for f in 0..thin.sheet.faces.len() as u32 {
+        let [a, b, c] = thin.sheet.corners(f);
+        assert!(a.distance(b).max(b.distance(c)).max(c.distance(a)) < 6.0);
+    }
+}
+
+#[test]
+fn the_same_on_any_number_of_threads() {
+    let solid = revolved(&[[19., 0.], [21., 0.], [21., 50.], [19., 50.]], 37, true);
+    let on = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let thin = pool.install(|| deflated(&solid));
+        (thin.sheet, thin.thickness)
+    };
+    assert_eq!(on(1), on(3));
+}
+
+#[test]
+fn what_is_no_thin_solid_is_refused_and_says_why() {
+    let refused = |solid: &TriMesh| deflate(solid, &DeflateOptions::default(), &Nobody).unwrap_err();
+    let cube = prism(&[[0., 0.], [50., 0.], [50., 50.], [0., 50.]], 50.0, 1);
+    match refused(&cube) {
+        DeflateError::Bulky { unpaired, paired, .. } => {
+            assert_eq!(unpaired.len(), 6);
+            assert!(paired < 0.1);
+        }
+        other => panic!("{other}"),
+    }
+    let mut open = prism(&TEE, 40.0, 2);
+    open.faces.pop();
+    assert!(matches!(refused(&open), DeflateError::Open { edges: 3, .. }));
+    let mut doubled = prism(&TEE, 40.0, 2);
+    doubled.faces.push(doubled.faces[0]);
+    assert!(matches!(refused(&doubled), DeflateError::NotManifold { .. }));
+    let crossing = appended(&prism(&TEE, 40.0, 2), &prism(&ANGLE, 30.0, 2));
+    assert!(!Crossings::new(&crossing).self_crossing().is_empty());
+    assert!(matches!(refused(&crossing), DeflateError::SelfCrossing { .. }));
+    assert_eq!(refused(&TriMesh::default()), DeflateError::Empty);
+    let mut nowhere = prism(&TEE, 40.0, 1);
+    nowhere.positions[3].y = f64::NAN;
+    assert_eq!(refused(&nowhere), DeflateError::NotFinite { node: 3 });
+    let bad = DeflateOptions { edge_length: Some(0.0), ..DeflateOptions::default() };
+    let error = deflate(&cube, &bad, &Nobody).unwrap_err();
+    assert!(matches!(error, DeflateError::OptionRange { option: "edge_length", .. }));
+}
+
+#[test]
+fn a_watcher_ends_it_at_any_step() {
+    struct After(Step, std::sync::atomic::AtomicBool);
+    impl Watcher for After {
+        fn step(&self, step: Step) {
+            self.1.fetch_or(step == self.0, std::sync::atomic::Ordering::Relaxed);
+        }
+        fn cancelled(&self) -> bool {
+            self.1.load(std::sync::atomic::Ordering::Relaxed)
+        }
+    }
+    for step in [Step::Check, Step::Segments, Step::Pairs, Step::Replace, Step::Stitch] {
+        let error = deflate(&prism(&TEE, 40.0, 1), &DeflateOptions::default(), &After(step, false.into()));
+        assert_eq!(error.unwrap_err(), DeflateError::Cancelled);
+    }
+}
