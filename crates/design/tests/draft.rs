@@ -1,5 +1,8 @@
 //! Drafts: commands, undo, journals, files, recovery.
 
+// A test that cannot go on fails.
+#![allow(clippy::unwrap_used)]
+
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 

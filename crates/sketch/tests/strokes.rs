@@ -1,5 +1,8 @@
 //! Strokes against exact projections, at several cameras, resolutions and pixel scales.
 
+// A test that cannot go on fails.
+#![allow(clippy::unwrap_used)]
+
 use glam::{DQuat, DVec2, DVec3};
 use sketch::{
     Camera, Clear, PickOptions, Plane, ProfileOptions, Projection, Ray, Sight, SpaceEdge, Stabiliser, Stroke,
