@@ -263,7 +263,9 @@ impl Designer {
         match (self.tool, pointer) {
             (Tool::Sketch, Some(at)) if response.dragged_by(PointerButton::Primary) => self.stroke.push(at),
             (Tool::Select, Some(at)) if response.drag_started_by(PointerButton::Primary) => {
-                self.selected = near(&self.view, at).into_iter().collect();
+                // A drag is known by its first movement; what it takes lay where it began.
+                let from = ui.input(|i| i.pointer.press_origin()).unwrap_or(at);
+                self.selected = near(&self.view, from).into_iter().collect();
                 self.dragging = !self.selected.is_empty();
                 if !self.dragging {
                     self.message = "no node here; orbit with the right button".to_owned();
