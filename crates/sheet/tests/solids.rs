@@ -97,6 +97,23 @@ fn bends_tighter_than_the_depth_are_told() {
 }
 
 #[test]
+fn a_tube_narrower_than_its_wall_is_filled() {
+    let (wide, narrow, n) = (10.0, 3.0, 24);
+    let torus = models::Patches::default().grid(n, 2 * n, |s, t| {
+        // Whole turns are none, lest rounding part the ends.
+        let (s, t) = ((2.0 * PI * (s % 1.0)).sin_cos(), (2.0 * PI * (t % 1.0)).sin_cos());
+        let r = wide + narrow * s.1;
+        DVec3::new(r * t.1, r * t.0, narrow * s.0)
+    });
+    for t in [6.5, 8.0, 14.0] {
+        let thick = solid(&format!("torus {t}"), &torus.mesh, &options(t, Corners::Round));
+        assert_eq!((thick.report.components, thick.report.genus), (1, 1), "{t}");
+        let radius = narrow + t / 2.0;
+        assert_volume(&format!("torus {t}"), &thick, 2.0 * PI * PI * wide * radius * radius, 0.01);
+    }
+}
+
+#[test]
 fn mitres_beyond_the_limit_are_told() {
     let sharp = models::fan(&[0.0, 0.3], 50.0, 3);
     let thick = solid("sharp fold", &sharp, &options(1.0, Corners::Mitre));

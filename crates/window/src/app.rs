@@ -1,4 +1,4 @@
-//! The application: session state, tools, and the frame.
+//! The application: what is being designed, tools, and the frame.
 
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -83,12 +83,12 @@ pub(super) fn unite_ends(
     for corner in corners() {
         let id = point[corner as usize];
         if id >= first && !std::mem::replace(&mut seen[(id - first) as usize], true) {
-            ends.push(End {
-                point: id,
-                at: positions[id as usize],
-                node: sheet.positions[entities.node[corner as usize] as usize],
-                depth: depth[corner as usize],
-            });
+            let (at, node) =
+                (positions[id as usize], sheet.positions[entities.node[corner as usize] as usize]);
+            // An offset so short that it is rounded away has no room about its end.
+            if at != node {
+                ends.push(End { point: id, at, node, depth: depth[corner as usize] });
+            }
         }
     }
     let mut one: HashMap<u32, u32> = HashMap::new();

@@ -6,10 +6,10 @@
 
 use mesh_kernel::TriMesh;
 use mesh_kernel::merge::Solid;
-use mesh_kernel::query::ClosestPoint;
+use mesh_kernel::query::{ClosestPoint, WindingNumber};
 
 use super::clean_sheet::CleanSheet;
-use super::measure::shells;
+use super::measure::{Shells, shells};
 use super::{OffsetChain, Role, Side};
 
 /// A node counts as nearer than the depth below this share of it: offset points of smooth runs may miss by as much.
@@ -51,9 +51,27 @@ pub(super) fn fill_voids(sheet: &CleanSheet, chain: &OffsetChain, side: Side, so
         let shell = shells.of_node[face[0] as usize] as usize;
         spurious[shell] = spurious[shell] && face.iter().all(|v| is_near(*v));
     }
-    let keep = |face: &[u32; 3]| !spurious[shells.of_node[face[0] as usize] as usize];
+    let islands = islands(&solid.mesh, &shells, &spurious);
+    let keep = |face: &[u32; 3]| {
+        let shell = shells.of_node[face[0] as usize] as usize;
+        !spurious[shell] && !islands[shell]
+    };
     let faces = std::mem::take(&mut solid.mesh.faces);
     let parents = std::mem::take(&mut solid.parents);
     (solid.mesh.faces, solid.parents) = faces.into_iter().zip(parents).filter(|(f, _)| keep(f)).unzip();
     spurious.iter().filter(|s| **s).count()
+}
+
+/// Whether a shell is material within a void that is filled: then it is no boundary any more.
+fn islands(mesh: &TriMesh, shells: &Shells, filled: &[bool]) -> Vec<bool> {
+    let shell = |face: &[u32; 3]| shells.of_node[face[0] as usize] as usize;
+    // Voids are wound inward.
+    let faces = mesh.faces.iter().filter(|f| filled[shell(f)]).map(|&[a, b, c]| [a, c, b]).collect();
+    let voids = WindingNumber::new(&TriMesh::new(mesh.positions.clone(), faces));
+    let mut seed = vec![None; filled.len()];
+    mesh.faces.iter().for_each(|f| seed[shell(f)] = Some(f[0]));
+    let is_island = |(shell, node): (usize, Option<u32>)| {
+        node.is_some_and(|v| !filled[shell] && voids.is_above(mesh.positions[v as usize], 0.5))
+    };
+    seed.into_iter().enumerate().map(is_island).collect()
 }
