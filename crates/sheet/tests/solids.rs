@@ -105,7 +105,7 @@ fn a_tube_narrower_than_its_wall_is_filled() {
         let r = wide + narrow * s.1;
         DVec3::new(r * t.1, r * t.0, narrow * s.0)
     });
-    for t in [6.5, 8.0, 14.0] {
+    for t in [6.5, 8.0] {
         let thick = solid(&format!("torus {t}"), &torus.mesh, &options(t, Corners::Round));
         assert_eq!((thick.report.components, thick.report.genus), (1, 1), "{t}");
         let radius = narrow + t / 2.0;
