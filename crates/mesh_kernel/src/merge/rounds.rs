@@ -22,6 +22,10 @@ use crate::query::faces_meet_beyond_shared;
 
 /// Parts that all faces together are cut into, times their number, after which a knot is reported.
 const MOST_PARTS: usize = 200;
+/// Findings of a later round, times those of the first, beyond which faces run away from each other instead of parting; and
+/// how many are always let pass.
+const RUNAWAY: usize = 4;
+const ALWAYS: usize = 20_000;
 /// Rounds after which a knot is given up.
 const MAX_ROUNDS: u32 = 40;
 /// A knot is tried again from the start with what coincides stretched by these.
@@ -66,6 +70,7 @@ fn resolve_once(
 ) -> Result<Effort, MergeError> {
     let mut effort = Effort::default();
     let first_faces = complex.faces.len();
+    let mut first_findings = 0;
     let mut layers: Vec<BoxTree> = Vec::new();
     let mut new: Vec<u32> = complex.present().collect();
     loop {
@@ -81,7 +86,9 @@ fn resolve_once(
         if findings.is_empty() {
             return Ok(effort);
         }
-        if round == MAX_ROUNDS || complex.faces.len() > MOST_PARTS * (first_faces + MOST_PARTS) {
+        first_findings = first_findings.max(if round == 0 { findings.len() } else { 0 });
+        let runs_away = findings.len() > RUNAWAY * first_findings + ALWAYS;
+        if runs_away || round == MAX_ROUNDS || complex.faces.len() > MOST_PARTS * (first_faces + MOST_PARTS) {
             return Err(MergeError::Tangled { faces: new.len() });
         }
         effort.rounds += 1;
