@@ -96,20 +96,46 @@ fn bends_tighter_than_the_depth_are_told() {
     assert!(thick.report.places.is_empty());
 }
 
-#[test]
-fn a_tube_narrower_than_its_wall_is_filled() {
-    let (wide, narrow, n) = (10.0, 3.0, 24);
-    let torus = models::Patches::default().grid(n, 2 * n, |s, t| {
+/// A ring about the axis `z`, its tube of radius `narrow` about a circle of radius `wide`.
+fn torus(wide: f64, narrow: f64, n: usize) -> TriMesh {
+    let patch = models::Patches::default().grid(n, 2 * n, |s, t| {
         // Whole turns are none, lest rounding part the ends.
         let (s, t) = ((2.0 * PI * (s % 1.0)).sin_cos(), (2.0 * PI * (t % 1.0)).sin_cos());
         let r = wide + narrow * s.1;
         DVec3::new(r * t.1, r * t.0, narrow * s.0)
     });
-    for t in [6.5, 8.0] {
-        let thick = solid(&format!("torus {t}"), &torus.mesh, &options(t, Corners::Round));
+    patch.mesh
+}
+
+#[test]
+fn a_tube_narrower_than_its_wall_is_filled() {
+    let (wide, narrow) = (10.0, 3.0);
+    let sheet = torus(wide, narrow, 24);
+    for t in [6.0, 6.1, 6.5, 8.0, 12.0, 13.8] {
+        let thick = solid(&format!("torus {t}"), &sheet, &options(t, Corners::Round));
         assert_eq!((thick.report.components, thick.report.genus), (1, 1), "{t}");
         let radius = narrow + t / 2.0;
         assert_volume(&format!("torus {t}"), &thick, 2.0 * PI * PI * wide * radius * radius, 0.01);
+    }
+}
+
+/// Half the thickness from a little less than the ring's hole to far more: dozens of walls go through the axis.
+#[test]
+fn a_ring_closes_on_its_own_axis() {
+    let (wide, narrow) = (10.0, 3.0);
+    let sheet = torus(wide, narrow, 24);
+    for t in [13.9, 14.0, 14.05, 14.1, 14.2, 14.5, 15.0, 16.0, 20.0] {
+        let thick = solid(&format!("ring {t}"), &sheet, &options(t, Corners::Round));
+        assert_eq!((thick.report.components, thick.report.genus), (1, 0), "{t}");
+        // A spindle torus: what is inside its lemon is counted once.
+        let radius: f64 = narrow + t / 2.0;
+        let square = (radius * radius - wide * wide).max(0.0);
+        let tip = square.sqrt();
+        let lemon = (wide * wide + radius * radius) * tip
+            - tip.powi(3) / 3.0
+            - wide * (tip * wide + radius * radius * (tip / radius).asin());
+        let volume = 2.0 * PI * (PI * wide * radius * radius + lemon);
+        assert_volume(&format!("ring {t}"), &thick, volume, 0.01);
     }
 }
 

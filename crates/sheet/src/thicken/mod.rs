@@ -19,6 +19,7 @@ mod runs;
 mod sphere_patch;
 mod tidy;
 mod tight;
+mod tips;
 mod voids;
 mod wedges;
 

@@ -8,6 +8,7 @@ use super::entities::{Entities, use_of};
 use super::half_prism::HalfPrism;
 use super::runs::{CornerOffset, RunRules, corner_offsets};
 use super::tight::{shorten, unite_ends};
+use super::tips::unite_tips;
 
 /// Offset points of neighbours nearer than this, in depths, are one point.
 const SAME_POINT: f64 = 1e-9;
@@ -75,6 +76,7 @@ impl Offsets {
         long_mitres.dedup();
         let (mut positions, mut point) = number_points(sheet, entities, depth, &tight, &offsets);
         unite_ends(sheet, entities, depth, &tight, &mut positions, &mut point);
+        unite_tips(sheet, entities, depth, &tight, &mut positions, &mut point);
         Self { positions, point, tight, long_mitres }
     }
 }

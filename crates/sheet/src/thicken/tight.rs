@@ -22,8 +22,13 @@ const LEFT: f64 = 0.03;
 const ROUNDS: usize = 12;
 /// Least share of an offset that is left by a round.
 const LEAST: f64 = 0.1;
-/// Offset points within this of each other, in lengths of their offsets, are made one.
+/// Offset points within this of each other, in lengths of their offsets, are made one; those for which there is no common
+/// point are looked through again for nearer neighbours, down to the least.
 const ONE_POINT: f64 = 0.4;
+const LEAST_ONE_POINT: f64 = ONE_POINT / 64.0;
+/// How much farther from a node than its depth a common point may be, as a share: as far as the offset point of a fold that
+/// is just smooth (1/cos 15°), for nearer than that offsets do meet about the axis of a bend drawn with few faces.
+const BEYOND: f64 = 0.0353;
 /// How far a common point goes on past the axis, as a share of what the depth lets it: neighbours' material overlaps there.
 const PAST: f64 = 0.5;
 
@@ -60,11 +65,11 @@ pub(super) fn shorten(sheet: &CleanSheet, entities: &Entities, tight: &[bool], o
 }
 
 /// An offset point that is about to be made one with others.
-struct End {
-    point: u32,
-    at: DVec3,
-    node: DVec3,
-    depth: f64,
+pub(super) struct End {
+    pub(super) point: u32,
+    pub(super) at: DVec3,
+    pub(super) node: DVec3,
+    pub(super) depth: f64,
 }
 
 /// Makes offset points of tight face-uses that are near each other one. `point` is the point of every corner. O(n).
@@ -92,17 +97,15 @@ pub(super) fn unite_ends(
         }
     }
     let mut one: HashMap<u32, u32> = HashMap::new();
-    for cluster in clusters(&ends) {
-        let [keep, others @ ..] = cluster.as_slice() else { continue };
-        if others.is_empty() {
-            continue;
-        }
-        if let Some(place) = common_point(cluster.iter().map(|&i| &ends[i as usize])) {
-            let keep = ends[*keep as usize].point;
+    nearer_and_nearer(&ends, |cluster| {
+        let place = common_point(cluster.iter().map(|&i| &ends[i as usize]));
+        if let Some(place) = place {
+            let keep = ends[cluster[0] as usize].point;
             positions[keep as usize] = place;
-            one.extend(others.iter().map(|&i| (ends[i as usize].point, keep)));
+            one.extend(cluster.iter().map(|&i| (ends[i as usize].point, keep)));
         }
-    }
+        place.is_some()
+    });
     for corner in (0..point.len()).filter(|&c| tight[c / 3]) {
         if let Some(&keep) = one.get(&point[corner]) {
             point[corner] = keep;
@@ -110,13 +113,26 @@ pub(super) fn unite_ends(
     }
 }
 
-/// Ends that are near the first of theirs, in order.
-fn clusters(ends: &[End]) -> Vec<Vec<u32>> {
+/// Shows ends that are near each other to `unite`; those that it refuses are looked through again for nearer ones.
+pub(super) fn nearer_and_nearer(ends: &[End], mut unite: impl FnMut(&[u32]) -> bool) {
+    let mut pending = vec![((0..ends.len() as u32).collect(), ONE_POINT)];
+    while let Some((some, within)) = pending.pop() {
+        for cluster in clusters(ends, some, within) {
+            if cluster.len() > 1 && !unite(&cluster) && within > LEAST_ONE_POINT {
+                pending.push((cluster, 0.5 * within));
+            }
+        }
+    }
+}
+
+/// Some of the ends, those together that are near the first of theirs, in order.
+fn clusters(ends: &[End], some: Vec<u32>, within: f64) -> Vec<Vec<u32>> {
     let mut clusters: Vec<Vec<u32>> = Vec::new();
     // Cells are as wide as the cluster's radius, which is rounded to a power of two.
     let mut cells: HashMap<(i32, [i64; 3]), Vec<u32>> = HashMap::new();
-    for (i, end) in (0..).zip(ends) {
-        let radius = ONE_POINT * end.at.distance(end.node);
+    for i in some {
+        let end = &ends[i as usize];
+        let radius = within * end.at.distance(end.node);
         let level = radius.log2().ceil() as i32;
         let near = (level - 1..=level + 1).flat_map(|level| {
             let width = f64::from(level).exp2();
@@ -125,7 +141,7 @@ fn clusters(ends: &[End]) -> Vec<Vec<u32>> {
         });
         let first = near.filter_map(|cell| cells.get(&cell)).flatten().copied().find(|&c| {
             let seed = &ends[clusters[c as usize][0] as usize];
-            let radius = radius.min(ONE_POINT * seed.at.distance(seed.node));
+            let radius = radius.min(within * seed.at.distance(seed.node));
             seed.at.distance(end.at) <= radius
         });
         match first {
@@ -146,6 +162,7 @@ fn common_point<'a>(ends: impl Iterator<Item = &'a End> + Clone) -> Option<DVec3
     let count = ends.clone().count() as f64;
     let middle = ends.clone().map(|e| e.at).sum::<DVec3>() / count;
     let along = ends.clone().map(|e| (e.at - e.node).normalize_or_zero()).sum::<DVec3>() / count;
+    let within = ends.clone().all(|e| middle.distance(e.node) <= (1.0 + BEYOND) * e.depth);
     let left = ends.map(|e| e.depth - middle.distance(e.node)).fold(f64::INFINITY, f64::min);
-    (left >= 0.0).then(|| middle + PAST * left * along)
+    within.then(|| middle + PAST * left.max(0.0) * along)
 }
