@@ -1,6 +1,8 @@
 //! T7: one wireframe with the same profiles, joined in four ways, becomes four shapes (the samples in `samples/joints`).
 //!
-//! `UPDATE_DOCS=1 cargo test --release -p design --test joint_configurations` draws the guide's picture anew.
+//! And what can be asked beyond that (T5): surfaces faired as one across their joints, and adaptive splits.
+//!
+//! `UPDATE_DOCS=1 cargo test --release -p design --test joint_configurations` draws the guide's pictures anew.
 #![allow(clippy::unwrap_used, reason = "what is unexpected here is a finding")]
 
 use std::collections::BTreeMap;
@@ -10,8 +12,12 @@ use mesh_kernel::TriMesh;
 use mesh_kernel::files::read;
 use mesh_kernel::glam::DVec3;
 use reference::human::{HumanBody, HumanOptions, extract};
+use template::format::TemplateFile;
 use template::{Garment, Reference, RegenerateOptions, Template, regenerate};
-use viewer::{Camera, Lens, MontageOptions, Occlusion, RenderOptions, Scene, SceneMesh, montage, render};
+use viewer::{
+    Camera, Color, Lens, MontageOptions, Occlusion, RenderOptions, Scene, SceneLine, SceneMesh, montage,
+    render,
+};
 
 /// Samples with their titles, surfaces, and the uses of their joints.
 const CONFIGURATIONS: [(&str, &str, usize, &[usize]); 4] = [
@@ -101,10 +107,15 @@ fn the_same_wireframe_has_four_shapes() {
         assert!(turn > 25.0 && left < 0.5 * turn, "{a} and {b}: {left}° of {turn}°");
     }
     assert!(crease(&two, 2, 4) > 0.9 * crease(&one, 2, 4));
-    let picture = root().join("docs/joints/configurations.png");
+    keep("configurations.png", || drawn(&body.mesh, &garments));
+}
+
+/// Draws a picture of the guide anew, when asked to.
+fn keep(name: &str, draw: impl FnOnce() -> Vec<u8>) {
+    let picture = root().join("docs/joints").join(name);
     if std::env::var_os("UPDATE_DOCS").is_some() {
         std::fs::create_dir_all(picture.parent().unwrap()).unwrap();
-        std::fs::write(&picture, drawn(&body.mesh, &garments)).unwrap();
+        std::fs::write(&picture, draw()).unwrap();
     }
     assert!(picture.is_file(), "run with UPDATE_DOCS=1");
 }
@@ -127,4 +138,69 @@ fn drawn(body: &TriMesh, garments: &[Garment; 4]) -> Vec<u8> {
     let parts: Vec<_> =
         CONFIGURATIONS.iter().zip(&images).map(|((_, title, ..), image)| (*title, image)).collect();
     montage(&parts, &MontageOptions { columns: 2, gap: 8, ..MontageOptions::default() }).unwrap().to_png()
+}
+
+/// Mean angle in degrees by which the two surfaces at a seam go off each other, over all edges of two-sided seams.
+fn mean_crease(garment: &Garment) -> f64 {
+    let mut creases: Vec<f64> = Vec::new();
+    for seam in garment.seams.iter().filter(|seam| seam.sides.len() == 2) {
+        for k in 1..seam.sides[0].nodes.len() {
+            let normals: Vec<DVec3> = seam
+                .sides
+                .iter()
+                .filter_map(|side| {
+                    let surface = garment.body.surface(garment.surfaces[side.surface].id);
+                    let ends = [side.nodes[k - 1], side.nodes[k]];
+                    let face = surface.faces().iter().find(|f| ends.iter().all(|v| f.contains(v)))?;
+                    let [a, b, c] = face.map(|v| surface.positions()[v as usize]);
+                    Some((b - a).cross(c - a).normalize())
+                })
+                .collect();
+            // Surfaces may be wound against each other.
+            if let [one, other] = normals[..] {
+                let angle = one.angle_between(other).to_degrees();
+                creases.push(angle.min(180.0 - angle));
+            }
+        }
+    }
+    creases.iter().sum::<f64>() / creases.len() as f64
+}
+
+#[test]
+fn fairing_across_joints_and_adaptive_splits() {
+    let body = form();
+    let path = root().join("samples/princess-dress.json");
+    let sample = Template::from_json(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let changed = |change: &dyn Fn(&mut TemplateFile)| {
+        let mut file = sample.file().clone();
+        change(&mut file);
+        build(&Template::from_json(&serde_json::to_string(&file).unwrap()).unwrap(), &body)
+    };
+    let one_by_one = changed(&|file| file.fair_across.clear());
+    let across = changed(&|_| ());
+    let adaptive = changed(&|file| file.adaptive = Some(1.5));
+    let (kept, smooth) = (mean_crease(&one_by_one), mean_crease(&across));
+    assert!(smooth < 0.7 * kept, "{smooth}° across, {kept}° one by one");
+    let faces = |garment: &Garment| garment.body.to_tri_mesh().faces.len();
+    assert!(faces(&adaptive) < faces(&across) / 2, "{} of {}", faces(&adaptive), faces(&across));
+    keep("options.png", || {
+        let options = RenderOptions::sized(250, 390).plain();
+        let images = [&one_by_one, &across, &adaptive].map(|garment| {
+            let mesh = garment.body.to_tri_mesh();
+            let mut lines = Vec::new();
+            for face in &mesh.faces {
+                let corners = face.map(|v| mesh.positions[v as usize]);
+                let points = vec![corners[0], corners[1], corners[2], corners[0]];
+                lines.push(SceneLine::new(points, Color::INK, 0.4));
+            }
+            let alone = Scene { meshes: vec![SceneMesh::garment(&mesh)], ..Scene::default() };
+            let camera = Camera::toward(DVec3::new(0.5, 0.2, 1.0), DVec3::Y, Lens::PORTRAIT).unwrap();
+            let camera = camera.fit(&alone, &options).unwrap();
+            let meshes = vec![SceneMesh::body(&body.mesh), SceneMesh::garment(&mesh)];
+            render(&Scene { meshes, lines, ..Scene::default() }, &camera, &options).unwrap()
+        });
+        let titles = ["one by one", "across joints", "adaptive"];
+        let parts: Vec<_> = titles.into_iter().zip(&images).collect();
+        montage(&parts, &MontageOptions { gap: 8, ..MontageOptions::default() }).unwrap().to_png()
+    });
 }

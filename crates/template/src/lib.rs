@@ -4,6 +4,7 @@
 //! whose nodes are stored relative to the features of a body. [`regenerate`](regenerate()) rebuilds it on any body with the same
 //! features.
 
+mod adapt;
 mod collision;
 mod complex;
 mod construct;

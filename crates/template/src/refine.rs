@@ -44,6 +44,8 @@ pub(crate) struct Refined {
     pub(crate) level_nodes: Vec<Vec<usize>>,
     /// The line of each edge of each surface at the finest level.
     pub(crate) edge_lines: Vec<Vec<Option<OnLine>>>,
+    /// The lines of each surface's edges at all levels, by their nodes, the smaller first.
+    pub(crate) line_edges: Vec<BTreeMap<[u32; 2], OnLine>>,
 }
 
 /// An edge's part of a line.
@@ -83,6 +85,8 @@ impl Refined {
         let mut level_faces =
             vec![ids.iter().map(|id| body.surface(*id).faces().to_vec()).collect::<Vec<_>>()];
         let mut level_nodes = vec![patches.iter().map(|p| p.nodes.len()).collect::<Vec<_>>()];
+        let mut line_edges: Vec<BTreeMap<[u32; 2], OnLine>> = vec![BTreeMap::new(); ids.len()];
+        list_lines(&body, &ids, &on_line, &mut line_edges);
         for _ in 0..levels {
             images.split(&body, &ids);
             let old: Vec<Vec<[u32; 2]>> = ids.iter().map(|id| body.surface(*id).edges().to_vec()).collect();
@@ -105,6 +109,7 @@ impl Refined {
                 }
                 on_line[s] = next;
             }
+            list_lines(&body, &ids, &on_line, &mut line_edges);
             level_faces.push(ids.iter().map(|id| body.surface(*id).faces().to_vec()).collect());
             level_nodes.push(ids.iter().map(|id| body.surface(*id).positions().len()).collect());
         }
@@ -142,7 +147,15 @@ impl Refined {
             level_faces,
             level_nodes,
             edge_lines: on_line,
+            line_edges,
         })
+    }
+
+    /// The line of an edge of a surface at any level, with the edge's nodes in the order given.
+    pub(crate) fn line_of(&self, surface: usize, [a, b]: [u32; 2]) -> Option<OnLine> {
+        let on = self.line_edges[surface].get(&[a.min(b), a.max(b)])?;
+        let [first, second] = on.ends;
+        Some(OnLine { ends: if a < b { [first, second] } else { [second, first] }, ..*on })
     }
 
     /// Faces of a surface over welded nodes, at the finest level.
@@ -167,6 +180,23 @@ impl Refined {
                 let mean = 0.5 * (positions[w] + mirror(positions[t as usize]));
                 positions[w] = mean;
                 positions[t as usize] = mirror(mean);
+            }
+        }
+    }
+}
+
+/// Adds the edges that lie on lines to lists by nodes.
+fn list_lines(
+    body: &Body,
+    ids: &[SurfaceId],
+    on_line: &[Vec<Option<OnLine>>],
+    out: &mut [BTreeMap<[u32; 2], OnLine>],
+) {
+    for ((id, on_line), out) in ids.iter().zip(on_line).zip(out) {
+        for (&[a, b], on) in body.surface(*id).edges().iter().zip(on_line) {
+            if let Some(on) = on {
+                let ends = if a < b { on.ends } else { [on.ends[1], on.ends[0]] };
+                out.insert([a.min(b), a.max(b)], OnLine { ends, ..*on });
             }
         }
     }

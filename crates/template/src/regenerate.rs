@@ -20,7 +20,7 @@ use crate::layout::{Layout, LayoutLine};
 use crate::place::Placing;
 use crate::refine::{Refined, Tag};
 use crate::skin::Skin;
-use crate::{complex, crowding, joints, outline, place};
+use crate::{adapt, complex, crowding, joints, outline, place};
 
 /// A body with its features, both in the canonical frame (millimetres, y up, facing +z).
 #[derive(Clone, Copy, Debug)]
@@ -239,7 +239,7 @@ pub fn regenerate(
             break (positions, moved);
         }
     };
-    let collision = fine.drape.report(&positions, &moved, &crossings);
+    let mut collision = fine.drape.report(&positions, &moved, &crossings);
     let mut ease = BTreeMap::new();
     for (level, faces) in eases.iter().zip(&faces) {
         let Some(girth) = garment_girth(&positions, faces, level.curve) else { continue };
@@ -259,6 +259,17 @@ pub fn regenerate(
     }
     drop(fine);
     drop(rough);
+    if let Some(tolerance) = file.adaptive {
+        // Wider triangles may cut into the body where narrow ones did not: those are split.
+        let crossing = |faces: &[[u32; 3]]| {
+            let mut found = vec![false; faces.len()];
+            let mesh = TriMesh::new(positions.clone(), faces.to_vec());
+            crossings.faces_crossing(&mesh).iter().for_each(|(face, _)| found[*face as usize] = true);
+            collision.faces_crossing = found.iter().filter(|f| **f).count();
+            found
+        };
+        refined = adapt::adapted(&refined, &positions, tolerance, crossing)?;
+    }
     settle(&mut refined, &positions);
     clock.stage(0.95, "naming")?;
     let spent = seconds.prepare + seconds.topology + seconds.factor;

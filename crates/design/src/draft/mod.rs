@@ -72,6 +72,7 @@ impl Draft {
             mirrored: true,
             symmetric: None,
             level: 3,
+            adaptive: None,
             clearance: 4.0,
             nodes: BTreeMap::new(),
             surfaces: BTreeMap::new(),

@@ -31,6 +31,11 @@ pub(crate) fn check_incomplete(file: &TemplateFile) -> Checked {
             format!("{} splits are too many; at most {DEEPEST}", file.level),
         ));
     }
+    if let Some(adaptive) = file.adaptive
+        && !(0.01..=50.0).contains(&adaptive)
+    {
+        return Err(TemplateError::format("adaptive", "must be from 0.01 to 50 mm"));
+    }
     length("clearance", file.clearance)?;
     if file.clearance < 0.0 {
         return Err(TemplateError::format("clearance", "must not be negative"));

@@ -90,6 +90,9 @@ pub struct TemplateFile {
     /// How often every face is split 1→4 (0 to 8).
     #[serde(default = "default_level")]
     pub level: u8,
+    /// Only as many of these splits as it takes to stay within this distance of the fully split surfaces, mm (0.01 to 50).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub adaptive: Option<f64>,
     /// Wanted distance of the garment's inside to the skin, mm.
     #[serde(default = "default_clearance")]
     pub clearance: f64,

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)] // a test that cannot go on fails; its makers of input lie outside #[test]
 
+mod adaptive;
 mod collision;
 mod encoding;
 mod fairing;
