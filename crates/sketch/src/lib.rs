@@ -5,7 +5,9 @@
 //!   them (Wang et al., feature templates, section 4.1.4);
 //! * [`Curve`]: line, arc, Bézier curve, spline, each with points, tangents, curvatures and length;
 //! * [`Outline`]: what a person draws, as data: a rectangle, a circle, a polygon, curves end to end;
-//! * [`Path`]: curves end to end, checked, to be sampled to a tolerance.
+//! * [`Path`]: curves end to end, checked, to be sampled to a tolerance;
+//! * [`Drawing`]: shapes that share points, edited: moved, bent, split, merged, trimmed, rounded; [`Rule`]s that stay true;
+//!   [`Snap`]: what the pointer means.
 //!
 //! Lengths are millimetres, angles radians; where data name degrees, their fields say so.
 //!
@@ -23,6 +25,7 @@
 mod branches;
 mod camera;
 mod curve;
+mod drawing;
 mod error;
 mod outline;
 mod path;
@@ -33,6 +36,9 @@ mod stroke;
 pub use branches::{Branch, order_of_branches};
 pub use camera::{Camera, Plane, Projection, Ray};
 pub use curve::{Curve, NearestPoint};
+pub use drawing::{
+    Crossing, Drawing, DrawingError, PointId, Rule, Shape, ShapeId, Snap, SnapKind, SnapOptions, crossings,
+};
 pub use error::SketchError;
 pub use outline::Outline;
 pub use path::{Path, PathPoint};
