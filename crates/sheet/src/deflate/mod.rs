@@ -11,12 +11,14 @@ mod options;
 mod patches;
 mod plan;
 mod plane;
+mod remesh;
 mod replace;
 mod report;
 mod seams;
 mod segments;
 mod sides;
 mod solid;
+mod star;
 mod thickness;
 mod topology;
 mod walls;
@@ -156,7 +158,7 @@ pub fn deflate(
     let stitch = |gone: &[bool]| {
         let kept: Vec<bool> = kept.iter().zip(gone).map(|(kept, gone)| *kept && !gone).collect();
         let mut sheet = assemble(&solid, &segments, &walls, &middles, gone, &kept, &moved, options);
-        follow(&mut sheet, &solid, &segments, &walls);
+        follow(&mut sheet, &solid, &segments, &walls, options.edge_length);
         let thickness = thicknesses(&sheet, &solid, &segments, &walls, &middles, &corners);
         let patched = patched(&sheet, &segments);
         let crossing = Crossings::new(&patched.mesh).self_crossing().len();
