@@ -306,7 +306,8 @@ impl Near {
 }
 
 impl Sheet {
-    fn without_unused_nodes(mut self) -> Self {
+    /// Leaves out nodes without faces. O(n).
+    pub(super) fn without_unused_nodes(mut self) -> Self {
         const NONE: u32 = u32::MAX;
         let mut number = vec![NONE; self.positions.len()];
         let mut positions = Vec::new();

@@ -10,6 +10,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::assemble::{Sheet, Source};
+use super::exact::Exact;
 use super::remesh::{Nodes, Remesh};
 use super::segments::Segments;
 use super::solid::Solid;
@@ -83,6 +84,7 @@ struct Follow<'a> {
     solid: &'a Solid,
     segments: &'a Segments,
     walls: &'a Walls,
+    exact: &'a Exact,
 }
 
 /// Refines the curved pieces of a sheet; with an edge length, meshes them anew to about that. O(n log n) a round.
@@ -91,16 +93,19 @@ pub(super) fn follow(
     solid: &Solid,
     segments: &Segments,
     walls: &Walls,
+    exact: &Exact,
     edge_length: Option<f64>,
 ) {
     if !sheet.sources.iter().any(|s| matches!(s, Source::Facet(_))) {
         return;
     }
-    let follow = Follow { remesh: Remesh { solid }, solid, segments, walls };
+    let follow = Follow { remesh: Remesh { solid }, solid, segments, walls, exact };
     match edge_length {
         Some(length) => follow.mesh_to(sheet, length),
         None => follow.refine(sheet),
     }
+    // Edges have closed.
+    *sheet = std::mem::take(sheet).without_unused_nodes();
 }
 
 impl Follow<'_> {
@@ -134,6 +139,7 @@ impl Follow<'_> {
             self.remesh.smooth(sheet);
             self.settle(sheet);
             self.name_sources(sheet);
+            self.exact.settle(sheet, &self.remesh.nodes(sheet));
         }
         self.remesh.turn(sheet);
     }

@@ -3,8 +3,11 @@
 mod assemble;
 mod blends;
 mod error;
+mod exact;
+mod faces;
 mod features;
 mod fill;
+mod fit;
 mod follow;
 mod middle;
 mod options;
@@ -16,6 +19,7 @@ mod replace;
 mod report;
 mod seams;
 mod segments;
+mod shape;
 mod sides;
 mod solid;
 mod star;
@@ -25,13 +29,16 @@ mod walls;
 
 pub use error::DeflateError;
 pub use options::{DeflateOptions, Steps};
-pub use report::{DeflateReport, Feature, ThicknessRange, UnpairedFace};
+pub use report::{DeflateReport, Feature, SkinFace, ThicknessRange, UnpairedFace, WallPair};
+pub use shape::Shape;
 
 use mesh_kernel::TriMesh;
 use mesh_kernel::query::Crossings;
 
 use assemble::{Moved, assemble};
 use blends::Blends;
+use exact::Exact;
+use faces::Faces;
 use features::Features;
 use follow::follow;
 use middle::Middles;
@@ -138,6 +145,9 @@ pub fn deflate(
         segments.split_off(&flares, &solid);
         walls = Walls::new(&solid, &segments, options);
     }
+    let faces = Faces::new(&solid, &segments);
+    let wall_pairs = report::wall_pairs(&solid, &segments, &walls, &faces);
+    let exact = Exact::new(&faces, &wall_pairs);
     let blends = Blends::new(&solid, &segments, &walls);
     if walls.paired_share < THIN {
         let unpaired = unpaired(&solid, &segments, &walls, 0.0);
@@ -155,11 +165,13 @@ pub fn deflate(
     let replacement = Replacement::new(&solid, &segments, &walls, &middles, &blends, &corners);
     let moved = Moved { positions: replacement.positions(), soft: replacement.beside_facets() };
     begin(Step::Stitch)?;
+    // A mesh of its own has nodes on exact middles; one that follows the facets is as thick as they are apart.
+    let on_exact = options.edge_length.map(|_| &exact);
     let stitch = |gone: &[bool]| {
         let kept: Vec<bool> = kept.iter().zip(gone).map(|(kept, gone)| *kept && !gone).collect();
         let mut sheet = assemble(&solid, &segments, &walls, &middles, gone, &kept, &moved, options);
-        follow(&mut sheet, &solid, &segments, &walls, options.edge_length);
-        let thickness = thicknesses(&sheet, &solid, &segments, &walls, &middles, &corners);
+        follow(&mut sheet, &solid, &segments, &walls, &exact, options.edge_length);
+        let thickness = thicknesses(&sheet, &solid, &segments, &walls, &middles, &corners, on_exact);
         let patched = patched(&sheet, &segments);
         let crossing = Crossings::new(&patched.mesh).self_crossing().len();
         (sheet, thickness, patched, crossing)
@@ -181,6 +193,8 @@ pub fn deflate(
     let area: f64 = areas.iter().sum();
     let report = DeflateReport {
         features: features.list,
+        wall_pairs,
+        faces: report::skin_faces(&solid, &faces),
         pairs: walls.pairs.iter().filter(|p| p.group < p.partner).count(),
         unpaired,
         patches: mesh.groups.len(),

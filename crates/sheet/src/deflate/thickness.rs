@@ -8,13 +8,14 @@ use mesh_kernel::query::Adjacency;
 use rayon::prelude::*;
 
 use super::assemble::{Sheet, Source};
+use super::exact::Exact;
 use super::follow::between;
 use super::middle::{Middle, Middles};
 use super::segments::Segments;
 use super::solid::Solid;
 use super::walls::Walls;
 
-/// A thickness a face, in mm. O(n log n).
+/// A thickness a face, in mm; with `exact`, that of the faces' geometry where there is one. O(n log n).
 pub(super) fn thicknesses(
     sheet: &Sheet,
     solid: &Solid,
@@ -22,10 +23,14 @@ pub(super) fn thicknesses(
     walls: &Walls,
     middles: &Middles,
     corners: &[[Option<Middle>; 3]],
+    exact: Option<&Exact>,
 ) -> Vec<f64> {
     let mesh = TriMesh::new(sheet.positions.clone(), sheet.faces.clone());
     let of = |f: usize| match sheet.sources[f] {
         Source::Facet(source) => {
+            if let Some((_, thickness)) = exact.and_then(|e| e.of(sheet.sources[f])) {
+                return Some(thickness);
+            }
             let [a, b, c] = mesh.corners(f as u32);
             let normal = solid.normals[source as usize];
             between(solid, segments, walls, (a + b + c) / 3.0, normal)
