@@ -23,6 +23,8 @@ const SURROUNDINGS: [usize; 3] = [40, 16, 7];
 const COMPARED: usize = 600;
 /// After so many facets in a row about which no shape fits, the rest of a group is freeform.
 const FAILURES: usize = 300;
+/// Passes over a group, at most.
+const PASSES: usize = 4;
 /// A group of which this share is freeform is so as a whole.
 const MOSTLY: f64 = 0.9;
 /// Nodes that a shape is fitted to, at most.
@@ -134,9 +136,33 @@ impl<'a> Growth<'a> {
         let mut order = own.clone();
         order.sort_by_key(|f| (f.wrapping_mul(0x9E37_79B1), *f));
         let mut found = Vec::new();
-        let mut tried = vec![false; own.len()];
+        // What runs into a face is seen better once that one is gone.
+        for _ in 0..PASSES {
+            let before = found.len();
+            self.pass(&order, &mut found);
+            if found.len() == before {
+                break;
+            }
+        }
+        // What has no shape is freeform, as it hangs together.
+        for seed in self.segments.group(self.group).faces.clone() {
+            if self.is_free(seed) {
+                let part = self.around(seed, usize::MAX);
+                found.push(self.take(Shape::Freeform, part));
+            }
+        }
+        // Here and there a freeform face is nearly round.
+        let freeform = found.iter().filter(|f| f.shape == Shape::Freeform).map(|f| f.area).sum::<f64>();
+        if freeform > MOSTLY * found.iter().map(|f| f.area).sum::<f64>() {
+            return vec![face(self.solid, Shape::Freeform, own.clone())];
+        }
+        found
+    }
+
+    fn pass(&mut self, order: &[u32], found: &mut Vec<Face>) {
+        let mut tried = vec![false; order.len()];
         let mut failures = 0;
-        for seed in order {
+        for &seed in order {
             if tried[self.place(seed)] || !self.is_free(seed) {
                 continue;
             }
@@ -154,19 +180,6 @@ impl<'a> Growth<'a> {
                 tried[place] = true;
             }
         }
-        // What has no shape is freeform, as it hangs together.
-        for seed in self.segments.group(self.group).faces.clone() {
-            if self.is_free(seed) {
-                let part = self.around(seed, usize::MAX);
-                found.push(self.take(Shape::Freeform, part));
-            }
-        }
-        // Here and there a freeform face is nearly round.
-        let freeform = found.iter().filter(|f| f.shape == Shape::Freeform).map(|f| f.area).sum::<f64>();
-        if freeform > MOSTLY * found.iter().map(|f| f.area).sum::<f64>() {
-            return vec![face(self.solid, Shape::Freeform, own.clone())];
-        }
-        found
     }
 
     /// The shape about a facet that reaches farthest.

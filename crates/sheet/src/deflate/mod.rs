@@ -10,6 +10,7 @@ mod fill;
 mod fit;
 mod follow;
 mod middle;
+mod nearness;
 mod options;
 mod patches;
 mod plan;
@@ -145,8 +146,15 @@ pub fn deflate(
         segments.split_off(&flares, &solid);
         walls = Walls::new(&solid, &segments, options);
     }
-    let faces = Faces::new(&solid, &segments);
-    let wall_pairs = report::wall_pairs(&solid, &segments, &walls, &faces);
+    let mut faces = Faces::new(&solid, &segments);
+    let mut wall_pairs = report::wall_pairs(&solid, &segments, &walls, &faces);
+    let fillets = walls.fillets(&segments, &faces, &wall_pairs);
+    if !fillets.is_empty() {
+        segments.split_off(&fillets, &solid);
+        walls = Walls::new(&solid, &segments, options);
+        faces = Faces::new(&solid, &segments);
+        wall_pairs = report::wall_pairs(&solid, &segments, &walls, &faces);
+    }
     let exact = Exact::new(&faces, &wall_pairs);
     let blends = Blends::new(&solid, &segments, &walls);
     if walls.paired_share < THIN {

@@ -5,7 +5,10 @@ use mesh_kernel::query::RayCaster;
 use rayon::prelude::*;
 
 use super::DeflateOptions;
+use super::faces::{Face, Faces};
+use super::report::WallPair;
 use super::segments::{SHARP, Segments};
+use super::shape::Shape;
 use super::solid::Solid;
 
 /// Facets of curved walls that lie opposite to each other may be inclined by this much, in radians: both are chords.
@@ -216,6 +219,34 @@ impl Walls {
             }
         }
         found
+    }
+
+    /// Fillets that curved walls run into: hollow faces without an exact partner, beside faces of their group that have one. What is
+    /// opposite to facets of them is so by chance.
+    pub(super) fn fillets(&self, segments: &Segments, faces: &Faces, pairs: &[WallPair]) -> Vec<Vec<u32>> {
+        let mut has_partner = vec![false; faces.list.len()];
+        pairs.iter().flat_map(|p| p.faces).for_each(|f| has_partner[f] = true);
+        let group = |face: &Face| segments.of(face.triangles[0]);
+        let mut has_wall = vec![false; segments.groups.len()];
+        for (face, has_partner) in faces.list.iter().zip(&has_partner) {
+            has_wall[group(face) as usize] |= *has_partner;
+        }
+        let is_fillet = |(face, has_partner): &(&Face, &bool)| {
+            let small = match face.shape {
+                Shape::Cylinder { radius, .. } | Shape::Sphere { radius, .. } => radius < self.max_thickness,
+                Shape::Torus { minor, .. } => minor < self.max_thickness,
+                _ => false,
+            };
+            let g = group(face);
+            !**has_partner && face.concave && small && has_wall[g as usize] && self.is_wall[g as usize]
+        };
+        faces
+            .list
+            .iter()
+            .zip(&has_partner)
+            .filter(is_fillet)
+            .map(|(face, _)| face.triangles.clone())
+            .collect()
     }
 
     fn looks(&self, solid: &Solid, segments: &Segments, f: u32, cell: f64) -> Vec<Look> {
