@@ -18,6 +18,8 @@ use super::walls::Walls;
 
 /// An edge is split if its middle is off by more than this share of the thickness.
 const OFF: f64 = 8e-3;
+/// A diagonal is right if its middle is off by less than this share of it.
+const RIGHT: f64 = 1e-3;
 /// Nodes are put right if they are off by more than this share of it.
 const NODE_OFF: f64 = 1e-3;
 /// A node is moved by at most this share of its shortest edge, or it would fold the faces about it.
@@ -116,7 +118,7 @@ impl Follow<'_> {
             self.segments.of_face.iter().map(|g| thickness[*g as usize] * CLOSED).collect();
         for round in 0..=ROUNDS {
             self.close(sheet, &of_face);
-            self.remesh.turn(sheet);
+            self.remesh.turn(sheet, &|old, new, at| self.follows(old, new, at));
             self.settle(sheet);
             let wanted = |look: &Look| {
                 let bend = look.off.length() / look.length;
@@ -135,13 +137,25 @@ impl Follow<'_> {
         for _ in 0..MESHINGS {
             self.split(sheet, MOST_FACES, &|look| look.length > LONG * length);
             self.close(sheet, &short);
-            self.remesh.turn(sheet);
+            self.remesh.turn(sheet, &|_, _, _| true);
             self.remesh.smooth(sheet);
             self.settle(sheet);
             self.name_sources(sheet);
             self.exact.settle(sheet, &self.remesh.nodes(sheet));
         }
-        self.remesh.turn(sheet);
+        self.remesh.turn(sheet, &|_, _, _| true);
+    }
+
+    /// Whether a diagonal follows the middle, or the old one does not: what both sides agree on stays as it is.
+    fn follows(&self, old: [u32; 2], new: [u32; 2], positions: &[DVec3]) -> bool {
+        let [a, b, c, d] = [old[0], old[1], new[0], new[1]].map(|v| positions[v as usize]);
+        let normal = (b - a).cross(d - c).normalize_or_zero();
+        let off = |[p, q]: [DVec3; 2]| {
+            let seen = between(self.solid, self.segments, self.walls, p.midpoint(q), normal)?;
+            Some(seen.off.length() / seen.thickness)
+        };
+        let is_right = |ends| off(ends).is_none_or(|off| off < RIGHT);
+        is_right([c, d]) || !is_right([a, b])
     }
 
     /// Closes edges shorter than is said for faces of the solid.

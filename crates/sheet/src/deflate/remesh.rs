@@ -27,6 +27,9 @@ const TURNS: usize = 8;
 /// A node moves this share of the way to the middle of its faces.
 const EASE: f64 = 0.5;
 
+/// Whether a diagonal may become another; given their nodes and where all nodes are.
+pub(super) type May<'a> = dyn Fn([u32; 2], [u32; 2], &[DVec3]) -> bool + Sync + 'a;
+
 /// A sheet with what its faces came from.
 pub(super) struct Remesh<'a> {
     pub(super) solid: &'a Solid,
@@ -136,11 +139,12 @@ impl Remesh<'_> {
     }
 
     /// Turns diagonals until opposite angles are small (Delaunay's criterion), but for those that would fold more.
-    pub(super) fn turn(&self, sheet: &mut Sheet) {
+    /// `may` is asked about each.
+    pub(super) fn turn(&self, sheet: &mut Sheet, may: &May) {
         for _ in 0..TURNS {
             let mesh = TriMesh::new(sheet.positions.clone(), sheet.faces.clone());
             let adjacency = Adjacency::new(&mesh);
-            let turned = |e: u32| self.turned(sheet, &mesh, &adjacency, e);
+            let turned = |e: u32| self.turned(sheet, &mesh, &adjacency, e, may);
             let mut found: Vec<(f64, [u32; 2], [[u32; 3]; 2])> =
                 (0..adjacency.edges().len() as u32).into_par_iter().filter_map(turned).collect();
             found.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
@@ -169,12 +173,12 @@ impl Remesh<'_> {
         mesh: &TriMesh,
         adjacency: &Adjacency,
         e: u32,
+        may: &May,
     ) -> Option<(f64, [u32; 2], [[u32; 3]; 2])> {
         let [h, k] = adjacency.half_edges(e) else { return None };
         let pair = [h / 3, k / 3];
         let [f, g] = pair;
-        self.normal(sheet, f)?;
-        self.normal(sheet, g)?;
+        let (m, n) = (self.normal(sheet, f)?, self.normal(sheet, g)?);
         let [a, b] = adjacency.ends(*h);
         let apex = |h: u32| mesh.faces[h as usize / 3][(h as usize % 3 + 2) % 3];
         let (c, d) = (apex(*h), apex(*k));
@@ -190,7 +194,10 @@ impl Remesh<'_> {
         let sound = corners.iter().zip(pair).all(|(corners, f)| !self.leans(sheet, f, *corners));
         let fold = |[p, q]: [[DVec3; 3]; 2]| unit_normal(p).dot(unit_normal(q));
         let before = fold(pair.map(|f| mesh.faces[f as usize].map(at)));
-        (sound && fold(corners) > before.min(FOLD.cos())).then_some((excess, pair, turned))
+        let sound = sound && fold(corners) > before.min(FOLD.cos());
+        // A fold that the solid has not goes in any case.
+        let unasked = before < FOLD.cos() && m.dot(n) > FOLD.cos();
+        (sound && (unasked || may([a, b], [c, d], &mesh.positions))).then_some((excess, pair, turned))
     }
 
     /// Moves nodes inside of curved pieces within the surface to the middle of their faces. O(n).
