@@ -20,6 +20,9 @@ const PAIRED_CURVED: f64 = 0.6;
 /// Thicknesses of one part differ from one to the next by no more than this factor; what is beyond is not thickness but
 /// the part's extent.
 const THICKNESS_GAP: f64 = 2.5;
+/// Where this share of all is thinner, a smaller factor is enough: the rest is lumps and heights of ribs.
+const NEARLY_ALL: f64 = 0.9;
+const SMALL_GAP: f64 = 1.6;
 /// A thickness told from the solid is no more than this share of how far its walls reach.
 const SLENDER: f64 = 0.35;
 /// A flare meets the wall that it runs into at less than this, in radians.
@@ -292,7 +295,8 @@ fn told_thickness(looks: &[Look], area: f64) -> f64 {
     let mut sum = 0.0;
     let mut largest = 0.0;
     for (thickness, part) in seen {
-        if sum >= 0.4 * all && thickness > THICKNESS_GAP * largest {
+        let gap = if sum >= NEARLY_ALL * all { SMALL_GAP } else { THICKNESS_GAP };
+        if sum >= 0.4 * all && thickness > gap * largest {
             break;
         }
         largest = thickness;
