@@ -113,9 +113,10 @@ impl Blends {
             let facing = |b: &Belongs| group_normal_at(solid, segments, b);
             let mine: Vec<_> = own.iter().map(facing).collect();
             let meets = |b: &Belongs| {
-                let apart =
-                    own.iter().all(|o| o.group != b.group && !self.touch(segments, solid, o.group, b.group));
-                apart && mine.iter().all(|n| n.dot(facing(b)).abs() < PARALLEL)
+                // A rib's side touches that of a rib across it, but not the floor that it is blended with.
+                let is_own = own.iter().any(|o| o.group == b.group);
+                let apart = own.iter().any(|o| !self.touch(segments, solid, o.group, b.group));
+                !is_own && apart && mine.iter().all(|n| n.dot(facing(b)).abs() < PARALLEL)
             };
             let others: Vec<&(f64, Belongs)> = reached.iter().filter(|r| meets(&r.1)).collect();
             let wall = others.iter().find(|r| walls.is_wall[r.1.group as usize]);
@@ -133,9 +134,37 @@ impl Blends {
             }
             let end = others.iter().find(|r| !walls.is_wall[r.1.group as usize] && r.0 <= within);
             let behind: Vec<Belongs> = wall.into_iter().chain(end).map(|r| r.1).collect();
+            let behind = if behind.is_empty() {
+                self.at_an_end(segments, solid, walls, &own, &reached)
+            } else {
+                behind
+            };
             if !behind.is_empty() {
                 self.of_node.entry(node).or_default().extend(behind);
             }
+        }
+    }
+
+    /// For a node where a blend ends on a wall across it: the two nearest walls that it blends, both of which touch that one but not
+    /// each other.
+    fn at_an_end(
+        &self,
+        segments: &Segments,
+        solid: &Solid,
+        walls: &Walls,
+        own: &[Belongs],
+        reached: &[(f64, Belongs)],
+    ) -> Vec<Belongs> {
+        let [across] = own else { return Vec::new() };
+        let touching = |b: &&Belongs| {
+            b.group != across.group
+                && walls.is_wall[b.group as usize]
+                && self.touch(segments, solid, b.group, across.group)
+        };
+        let beside: Vec<Belongs> = reached.iter().map(|r| &r.1).filter(touching).copied().collect();
+        match beside[..] {
+            [p, q] if !self.touch(segments, solid, p.group, q.group) => vec![p, q],
+            _ => Vec::new(),
         }
     }
 

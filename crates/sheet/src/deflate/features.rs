@@ -20,6 +20,9 @@ const OBLIQUE: f64 = 70.0 / 180.0 * std::f64::consts::PI;
 /// Faces of a hole look at its axis: the mean share of the way that they do.
 const HOLLOW: f64 = 0.3;
 
+/// What is said of features that have no middle.
+const NO_MIDDLE: &str = "no mid-surface can hold it: it goes all the same";
+
 /// What was found, and which groups go with what is removed.
 #[derive(Debug)]
 pub(super) struct Features {
@@ -74,9 +77,15 @@ impl Features {
         let mut features = Self { list: Vec::new(), gone: vec![false; segments.groups.len()] };
         for (number, (mut feature, groups)) in found.into_iter().enumerate() {
             let small = options.simplify.is_some_and(|size| feature.size <= size);
+            // A lump without walls of its own has no middle.
+            let lump = feature.kind == "boss" && !groups.iter().any(|g| is_wall(*g));
             let kept = options.keep.contains(&number);
             if !groups.is_empty() {
-                if kept {
+                if lump {
+                    feature.removed = true;
+                    feature.kept_because = kept.then_some(NO_MIDDLE);
+                    groups.iter().for_each(|g| features.gone[*g as usize] = true);
+                } else if kept {
                     feature.kept_because = Some("kept as asked");
                 } else if small && feature.kept_because.is_none() {
                     feature.removed = true;
@@ -85,7 +94,7 @@ impl Features {
                     feature.kept_because = None;
                 }
             } else if kept {
-                feature.kept_because = Some("no mid-surface can hold it: it goes all the same");
+                feature.kept_because = Some(NO_MIDDLE);
             }
             features.list.push(feature);
         }
