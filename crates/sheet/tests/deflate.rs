@@ -159,6 +159,37 @@ fn steps_in_thickness_are_joined_apart_or_aligned() {
 }
 
 #[test]
+fn small_steps_are_listed_and_go_by_size() {
+    // Plates of 2 and 2.4 with flush undersides.
+    let plates = [[0., 0.], [100., 0.], [100., 2.4], [50., 2.4], [50., 2.], [0., 2.]];
+    let solid = prism(&plates, 40.0, 6);
+    let with = |simplify: f64, keep: Vec<usize>| {
+        let options = DeflateOptions { simplify: Some(simplify), keep, ..DeflateOptions::default() };
+        deflate(&solid, &options, &Nobody).unwrap()
+    };
+    let kept = with(0.3, vec![]);
+    assert_eq!(kept.report.features.len(), 1);
+    assert_eq!((kept.report.features[0].kind, kept.report.features[0].removed), ("step", false));
+    near(kept.report.features[0].size, 0.4, 1e-9);
+    let gone = with(0.5, vec![]);
+    has_topology(&gone, [1, 0, 1, 1]);
+    near(gone.report.area, 4000.0, 1e-12);
+    assert!(gone.report.features[0].removed);
+    let asked = with(0.5, vec![0]);
+    has_topology(&asked, [3, 0, 1, 1]);
+    assert_eq!(asked.report.features[0].kept_because, Some("kept as asked"));
+}
+
+#[test]
+fn a_chamfer_at_the_rim_ends_at_the_rim() {
+    let solid = prism(&[[0., 0.], [60., 0.], [60., 2.2], [59.2, 3.], [0.8, 3.], [0., 2.2]], 40.0, 5);
+    let thin = deflated(&solid);
+    has_topology(&thin, [1, 0, 1, 1]);
+    near(thin.report.area, 60.0 * 40.0, 1e-9);
+    assert_eq!(thin.report.features.iter().filter(|f| f.kind == "chamfer").count(), 2);
+}
+
+#[test]
 fn fillets_at_a_root_go_and_the_walls_meet() {
     // The T with a fillet of radius 2 on either side of the stem, in six chords.
     let mut profile = vec![[-30., -1.], [30., -1.], [30., 1.]];

@@ -56,6 +56,8 @@ pub(super) struct Moved {
     pub(super) positions: Vec<DVec3>,
     /// Whether a node lies beside facets and is only as exact as they are.
     pub(super) soft: Vec<bool>,
+    /// Whether a node is on a blend and belongs to what is behind that.
+    pub(super) blended: Vec<bool>,
 }
 
 /// Makes the mid-surface. `gone`: groups that it is made without, as if walls went on below. O(n log n).
@@ -70,10 +72,10 @@ pub(super) fn assemble(
     moved: &Moved,
     options: &DeflateOptions,
 ) -> Sheet {
-    let Moved { positions: moved, soft } = moved;
+    let plan = plan(solid, segments, walls, middles, gone, kept, moved, options);
+    let Moved { positions: moved, soft, .. } = moved;
     let thickness = mean_thickness(walls);
     let near = Nearness { rounding: ROUNDING * solid.size, chords: CHORDS * thickness };
-    let plan = plan(solid, segments, walls, middles, gone, kept, moved, options);
     let merged = closed_edges(solid, segments, &plan, moved, CLOSED * thickness);
     let mut borders: Vec<([u32; 2], u32)> = Vec::new();
     for (k, piece) in (0..).zip(&plan.planes) {

@@ -8,8 +8,11 @@ use glam::DVec3;
 
 use super::DeflateOptions;
 use super::blends::Blends;
+use super::faces::{Face, Faces};
+use super::middle::ThicknessStep;
 use super::report::Feature;
 use super::segments::Segments;
+use super::shape::Shape;
 use super::solid::Solid;
 use super::walls::Walls;
 
@@ -20,6 +23,8 @@ const OBLIQUE: f64 = 70.0 / 180.0 * std::f64::consts::PI;
 /// Faces of a hole look at its axis: the mean share of the way that they do.
 const HOLLOW: f64 = 0.3;
 
+/// Radii that differ by less than this share are one.
+const ONE_RADIUS: f64 = 0.01;
 /// What is said of features that have no middle.
 const NO_MIDDLE: &str = "no mid-surface can hold it: it goes all the same";
 
@@ -50,24 +55,52 @@ impl Features {
         self.gone.fill(false);
     }
 
+    /// Lists a step in thickness; whether it is to go, which the middles see to.
+    pub(super) fn add_step(
+        &mut self,
+        solid: &Solid,
+        segments: &Segments,
+        step: &ThicknessStep,
+        options: &DeflateOptions,
+    ) -> bool {
+        let faces = &segments.group(step.group).faces;
+        let small = options.simplify.is_some_and(|size| step.height <= size);
+        let asked = options.keep.contains(&self.list.len());
+        self.list.push(Feature {
+            kind: "step",
+            at: middle(solid, faces),
+            size: step.height,
+            faces: faces.len(),
+            removed: small && !asked,
+            kept_because: asked.then_some("kept as asked"),
+        });
+        small && !asked
+    }
+
     /// Finds the features and decides which go. O(n log n), and walls times groups about them.
     pub(super) fn new(
         solid: &Solid,
         segments: &Segments,
         walls: &Walls,
         blends: &Blends,
+        geometry: &Faces,
         options: &DeflateOptions,
     ) -> Self {
         let links = Links::new(solid, segments);
         let mut found: Vec<(Feature, Vec<u32>)> = Vec::new();
         let is_wall = |g: u32| walls.is_wall[g as usize];
         for set in links.sets(|g| !is_wall(g) && blends.is_blend[g as usize]) {
-            if let Some(feature) = blend(solid, segments, walls, blends, &set) {
+            if let Some(mut feature) = blend(solid, segments, walls, blends, &set) {
+                if feature.kind != "chamfer" {
+                    feature.size = radius(segments, geometry, &set.groups).unwrap_or(feature.size);
+                }
                 found.push((feature, Vec::new()));
             }
         }
         for set in links.sets(|g| !is_wall(g)) {
-            if let Some(feature) = hole(solid, segments, walls, &set) {
+            if let Some(mut feature) = hole(solid, segments, walls, &set) {
+                let round = radius(segments, geometry, &set.groups);
+                feature.size = round.map_or(feature.size, |radius| 2.0 * radius);
                 found.push((feature, set.groups));
             }
         }
@@ -100,6 +133,25 @@ impl Features {
         }
         features
     }
+}
+
+/// The radius of what is round of some groups, if most of them is.
+fn radius(segments: &Segments, geometry: &Faces, groups: &[u32]) -> Option<f64> {
+    let mut areas: Vec<(f64, f64)> = Vec::new();
+    let is_own = |face: &&Face| groups.contains(&segments.of(face.triangles[0]));
+    for face in geometry.list.iter().filter(is_own) {
+        let radius = match face.shape {
+            Shape::Cylinder { radius, .. } | Shape::Sphere { radius, .. } => radius,
+            Shape::Torus { minor, .. } => minor,
+            _ => continue,
+        };
+        match areas.iter_mut().find(|a| (a.0 - radius).abs() < ONE_RADIUS * radius) {
+            Some(known) => known.1 += face.area,
+            None => areas.push((radius, face.area)),
+        }
+    }
+    let most = areas.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    (most.1 > 0.5 * area(segments, groups)).then_some(most.0)
 }
 
 /// Fillets, rounds and chamfers: strips that walls run into and that no mid-surface can hold.

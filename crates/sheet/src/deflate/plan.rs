@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 
+use super::assemble::Moved;
 use super::middle::Middles;
 use super::plane::Plane;
 use super::segments::Segments;
@@ -58,7 +59,7 @@ pub(super) fn plan(
     middles: &Middles,
     gone: &[bool],
     kept: &[bool],
-    moved: &[DVec3],
+    moved: &Moved,
     options: &DeflateOptions,
 ) -> Plan {
     let mut by_plane: BTreeMap<u32, PlanePiece> = BTreeMap::new();
@@ -98,7 +99,7 @@ pub(super) fn plan(
         }
     }
     if options.steps != Steps::Apart {
-        planes.extend(steps(solid, segments, walls, gone, kept, moved));
+        planes.extend(steps(solid, segments, walls, gone, kept, &moved.positions));
         curved.extend(round_steps(solid, segments, walls, gone, kept, moved));
     }
     Plan { planes, curved }
@@ -169,11 +170,14 @@ fn round_steps(
     walls: &Walls,
     gone: &[bool],
     kept: &[bool],
-    moved: &[DVec3],
+    moved: &Moved,
 ) -> Vec<u32> {
+    let Moved { positions: moved, blended, .. } = moved;
     let is_step = |g: &u32| {
         let group = segments.group(*g);
-        if group.plane.is_some() || walls.is_wall[*g as usize] || gone[*g as usize] {
+        let is_blend =
+            || group.faces.iter().flat_map(|f| solid.mesh.faces[*f as usize]).any(|v| blended[v as usize]);
+        if group.plane.is_some() || walls.is_wall[*g as usize] || gone[*g as usize] || is_blend() {
             return false;
         }
         let sides = group.faces.iter().flat_map(|f| 3 * f..3 * f + 3);
