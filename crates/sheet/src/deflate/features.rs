@@ -16,6 +16,8 @@ use super::shape::Shape;
 use super::solid::Solid;
 use super::walls::Walls;
 
+/// A hollow boss has a skin inside and outside, each no larger than that of a cube about it.
+const BOTH_SIDES: f64 = 2.0;
 /// What stands on a wall is small up to this many thicknesses.
 const SMALL: f64 = 10.0;
 /// Folds within blends and at their borders are less than this, in radians.
@@ -245,7 +247,9 @@ fn standing_on(
     let mut found = Vec::new();
     for set in links.behind(g) {
         // What holds a partner of the wall is the rest of the part.
-        if set.groups.iter().any(|s| partners.contains(s)) {
+        let large = SMALL * walls.max_thickness;
+        let far_too_large = area(segments, &set.groups) > BOTH_SIDES * 6.0 * large * large;
+        if far_too_large || set.groups.iter().any(|s| partners.contains(s)) {
             continue;
         }
         let faces: Vec<u32> =

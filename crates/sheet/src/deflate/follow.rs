@@ -30,6 +30,11 @@ const BEND: f64 = 0.2;
 const SHORTEST: f64 = 0.5;
 /// Edges shorter than this share of it close.
 const CLOSED: f64 = 0.2;
+/// Nor do edges that are longer than this share of the mean one; equal triangles of edges e have an area of e² / 2.31.
+const SHORTER: f64 = 0.35;
+const EVEN: f64 = 2.31;
+/// Splitting ends when there is less than one in so many edges to be split.
+const FEW: usize = 300;
 /// Rounds of splitting.
 const ROUNDS: usize = 6;
 /// Rounds of meshing to an edge length, and which edges are split and closed, over that length.
@@ -113,9 +118,8 @@ pub(super) fn follow(
 impl Follow<'_> {
     fn refine(&self, sheet: &mut Sheet) {
         let most = MOST_TIMES * self.solid.mesh.faces.len().max(MOST_ANYWAY);
-        let thickness: Vec<f64> = (0..self.segments.groups.len() as u32).map(|g| self.thickness(g)).collect();
-        let of_face: Vec<f64> =
-            self.segments.of_face.iter().map(|g| thickness[*g as usize] * CLOSED).collect();
+        let short: Vec<f64> = (0..self.segments.groups.len() as u32).map(|g| self.short(g)).collect();
+        let of_face: Vec<f64> = self.segments.of_face.iter().map(|g| short[*g as usize]).collect();
         for round in 0..=ROUNDS {
             self.close(sheet, &of_face);
             self.remesh.turn(sheet, &|old, new, at| self.follows(old, new, at));
@@ -172,10 +176,12 @@ impl Follow<'_> {
         }
     }
 
-    /// The thickness that most of a group has.
-    fn thickness(&self, g: u32) -> f64 {
+    /// Edges of a group close if they are shorter than this: a share of the thickness, but not those of an evenly fine mesh.
+    fn short(&self, g: u32) -> f64 {
         let most = self.walls.partners(g).iter().max_by(|a, b| a.area.total_cmp(&b.area));
-        most.map_or(0.0, |p| p.thickness)
+        let group = self.segments.group(g);
+        let edge = (EVEN * group.area / group.faces.len().max(1) as f64).sqrt();
+        most.map_or(0.0, |p| (CLOSED * p.thickness).min(SHORTER * edge))
     }
 
     /// Puts nodes inside of curved pieces halfway. O(n log n).
@@ -240,7 +246,7 @@ impl Follow<'_> {
             .map(|e| self.look(sheet, &nodes, e).filter(wanted))
             .collect();
         let count = split.iter().flatten().count();
-        if count == 0 || sheet.faces.len() + 2 * count > most {
+        if count <= split.len() / FEW || sheet.faces.len() + 2 * count > most {
             return false;
         }
         let mut before = sheet.positions.clone();

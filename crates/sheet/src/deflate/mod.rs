@@ -146,14 +146,14 @@ pub fn deflate(
     let flares = walls.flares(&solid, &segments);
     if !flares.is_empty() {
         segments.split_off(&flares, &solid);
-        walls = Walls::new(&solid, &segments, options);
+        walls.pair(&solid, &segments, options);
     }
     let mut faces = Faces::new(&solid, &segments);
     let mut wall_pairs = report::wall_pairs(&solid, &segments, &walls, &faces);
     let fillets = walls.fillets(&segments, &faces, &wall_pairs);
     if !fillets.is_empty() {
         segments.split_off(&fillets, &solid);
-        walls = Walls::new(&solid, &segments, options);
+        walls.pair(&solid, &segments, options);
         faces = Faces::new(&solid, &segments);
         wall_pairs = report::wall_pairs(&solid, &segments, &walls, &faces);
     }
