@@ -7,7 +7,7 @@ use mesh_kernel::TriMesh;
 use mesh_kernel::body::Body;
 use mesh_kernel::glam::DVec3;
 use mesh_kernel::query::{Adjacency, Crossings};
-use sheet::deflate::{DeflateError, DeflateOptions, Deflated, Nobody, Step, Steps, Watcher, deflate};
+use sheet::deflate::{DeflateError, DeflateOptions, Deflated, Nobody, Shape, Step, Steps, Watcher, deflate};
 use sheet::thicken::{self, ThickenOptions, thicken};
 use solid_models::{appended, plate_with_hole, prism, revolved, turned};
 
@@ -159,6 +159,37 @@ fn steps_in_thickness_are_joined_apart_or_aligned() {
 }
 
 #[test]
+fn small_steps_are_listed_and_go_by_size() {
+    // Plates of 2 and 2.4 with flush undersides.
+    let plates = [[0., 0.], [100., 0.], [100., 2.4], [50., 2.4], [50., 2.], [0., 2.]];
+    let solid = prism(&plates, 40.0, 6);
+    let with = |simplify: f64, keep: Vec<usize>| {
+        let options = DeflateOptions { simplify: Some(simplify), keep, ..DeflateOptions::default() };
+        deflate(&solid, &options, &Nobody).unwrap()
+    };
+    let kept = with(0.3, vec![]);
+    assert_eq!(kept.report.features.len(), 1);
+    assert_eq!((kept.report.features[0].kind, kept.report.features[0].removed), ("step", false));
+    near(kept.report.features[0].size, 0.4, 1e-9);
+    let gone = with(0.5, vec![]);
+    has_topology(&gone, [1, 0, 1, 1]);
+    near(gone.report.area, 4000.0, 1e-12);
+    assert!(gone.report.features[0].removed);
+    let asked = with(0.5, vec![0]);
+    has_topology(&asked, [3, 0, 1, 1]);
+    assert_eq!(asked.report.features[0].kept_because, Some("kept as asked"));
+}
+
+#[test]
+fn a_chamfer_at_the_rim_ends_at_the_rim() {
+    let solid = prism(&[[0., 0.], [60., 0.], [60., 2.2], [59.2, 3.], [0.8, 3.], [0., 2.2]], 40.0, 5);
+    let thin = deflated(&solid);
+    has_topology(&thin, [1, 0, 1, 1]);
+    near(thin.report.area, 60.0 * 40.0, 1e-9);
+    assert_eq!(thin.report.features.iter().filter(|f| f.kind == "chamfer").count(), 2);
+}
+
+#[test]
 fn fillets_at_a_root_go_and_the_walls_meet() {
     // The T with a fillet of radius 2 on either side of the stem, in six chords.
     let mut profile = vec![[-30., -1.], [30., -1.], [30., 1.]];
@@ -217,6 +248,65 @@ fn round_walls_follow_their_tessellation() {
     near(dome.report.area, std::f64::consts::TAU * 900.0, 5e-3);
     for p in &dome.sheet.positions {
         near(p.length(), 30.0, 1e-3);
+    }
+}
+
+/// A dome of mid radius 30 on a pipe of mid radius 30, rounded into a rim with radius 6, 2 thick, in `n` chords a right angle.
+fn bell(n: i32) -> Vec<[f64; 2]> {
+    let arc = |centre: [f64; 2], r: f64, from: f64, to: f64, k: i32| {
+        let angle = from + (to - from) * f64::from(k) / f64::from(n);
+        [centre[0] + r * angle.cos(), centre[1] + r * angle.sin()]
+    };
+    let half = std::f64::consts::FRAC_PI_2;
+    let side = |inner: f64| -> Vec<[f64; 2]> {
+        let dome = (0..=n).rev().map(move |k| arc([0.0, 0.0], 30.0 + inner, 0.0, half, k));
+        let rim = (0..=n).map(move |k| arc([36.0, -40.0], 6.0 - inner, 2.0 * half, 3.0 * half, k));
+        dome.chain(rim).chain([[50.0, -46.0 + inner]]).collect()
+    };
+    side(-1.0).into_iter().chain(side(1.0).into_iter().rev()).collect()
+}
+
+#[test]
+fn round_faces_are_named_however_they_are_meshed() {
+    for (n, around) in [(4, 20), (9, 64)] {
+        let solid = turned(&revolved(&bell(n), around, false));
+        let thin = deflated(&solid);
+        let mut kinds: Vec<&str> = thin.report.faces.iter().map(|f| f.shape.name()).collect();
+        kinds.sort_unstable();
+        let cylinders = ["cylinder"; 3];
+        let wanted = [&cylinders[..], &["plane"; 2], &["sphere"; 2], &["torus"; 2]].concat();
+        assert_eq!(kinds, wanted, "{:?}", thin.report.faces);
+        let middles: Vec<Shape> = thin.report.wall_pairs.iter().map(|w| w.middle).collect();
+        assert_eq!(middles.len(), 4, "{middles:?}");
+        for wall in &thin.report.wall_pairs {
+            near(wall.thickness, 2.0, 1e-6);
+            match wall.middle {
+                Shape::Cylinder { radius, .. } | Shape::Sphere { radius, .. } => near(radius, 30.0, 1e-6),
+                Shape::Torus { major, minor, .. } => {
+                    near(major, 36.0, 1e-6);
+                    near(minor, 6.0, 1e-6);
+                }
+                Shape::Plane { .. } => {}
+                shape => panic!("{shape:?}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn a_mesh_of_its_own_has_its_nodes_on_round_middles() {
+    let options = DeflateOptions { edge_length: Some(4.0), ..DeflateOptions::default() };
+    let tube = revolved(&[[19., 0.], [21., 0.], [21., 50.], [19., 50.]], 24, true);
+    let thin = deflate(&tube, &options, &Nobody).unwrap();
+    has_topology(&thin, [1, 0, 2, 1]);
+    for p in &thin.sheet.positions {
+        near(p.x.hypot(p.y), 20.0, 1e-6);
+    }
+    thin.thickness.iter().for_each(|t| near(*t, 2.0, 1e-6));
+    for f in 0..thin.sheet.faces.len() as u32 {
+        let [a, b, c] = thin.sheet.corners(f);
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        assert!(longest < 7.0 && thin.sheet.area_normal(f).length() > 0.25 * longest * longest);
     }
 }
 

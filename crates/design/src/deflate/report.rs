@@ -1,7 +1,7 @@
 //! The report of a deflated solid.
 
 use serde::Serialize;
-use sheet::deflate::{Deflated, Feature, ThicknessRange, UnpairedFace};
+use sheet::deflate::{Deflated, Feature, SkinFace, ThicknessRange, UnpairedFace, WallPair};
 
 /// What `toile deflate` reports; lengths in millimetres, whatever the file's unit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -50,6 +50,10 @@ pub struct DeflateFileReport {
     pub volume_ratio: f64,
     /// The faces without a partner, the largest first.
     pub unpaired: Vec<UnpairedFace>,
+    /// Faces of the solid's skin with their geometry.
+    pub skin: Vec<SkinFace>,
+    /// Pairs of these that are as far from each other everywhere, and what lies halfway.
+    pub walls: Vec<WallPair>,
 }
 
 /// Faces without a partner named in warnings; JSON has all.
@@ -83,6 +87,8 @@ impl DeflateFileReport {
             self_intersections: report.self_intersections,
             volume_ratio: report.thickness.mean * report.area / report.solid_volume,
             unpaired: report.unpaired.clone(),
+            skin: report.faces.clone(),
+            walls: report.wall_pairs.clone(),
         }
     }
 }

@@ -8,9 +8,10 @@ use glam::DVec3;
 use super::DeflateOptions;
 use super::fill::{Outline, fill};
 use super::middle::Middles;
+use super::nearness::Nearness;
 use super::plan::{Plan, border, plan};
 use super::plane::Plane;
-use super::seams::{Merged, Nearness, Seams};
+use super::seams::{Merged, Seams};
 use super::segments::Segments;
 use super::solid::Solid;
 use super::walls::Walls;
@@ -55,6 +56,8 @@ pub(super) struct Moved {
     pub(super) positions: Vec<DVec3>,
     /// Whether a node lies beside facets and is only as exact as they are.
     pub(super) soft: Vec<bool>,
+    /// Whether a node is on a blend and belongs to what is behind that.
+    pub(super) blended: Vec<bool>,
 }
 
 /// Makes the mid-surface. `gone`: groups that it is made without, as if walls went on below. O(n log n).
@@ -69,10 +72,10 @@ pub(super) fn assemble(
     moved: &Moved,
     options: &DeflateOptions,
 ) -> Sheet {
-    let Moved { positions: moved, soft } = moved;
+    let plan = plan(solid, segments, walls, middles, gone, kept, moved, options);
+    let Moved { positions: moved, soft, .. } = moved;
     let thickness = mean_thickness(walls);
     let near = Nearness { rounding: ROUNDING * solid.size, chords: CHORDS * thickness };
-    let plan = plan(solid, segments, walls, middles, gone, kept, moved, options);
     let merged = closed_edges(solid, segments, &plan, moved, CLOSED * thickness);
     let mut borders: Vec<([u32; 2], u32)> = Vec::new();
     for (k, piece) in (0..).zip(&plan.planes) {
@@ -306,7 +309,8 @@ impl Near {
 }
 
 impl Sheet {
-    fn without_unused_nodes(mut self) -> Self {
+    /// Leaves out nodes without faces. O(n).
+    pub(super) fn without_unused_nodes(mut self) -> Self {
         const NONE: u32 = u32::MAX;
         let mut number = vec![NONE; self.positions.len()];
         let mut positions = Vec::new();

@@ -25,6 +25,8 @@ const AS_NEAR: f64 = 1.2;
 const END_WIDTH: f64 = 2.5;
 /// A chamfer folds from its walls by less than this, in radians.
 const OBLIQUE: f64 = 70.0 / 180.0 * std::f64::consts::PI;
+/// One side of a strip is at least this share of its outline.
+const ONE_SIDE: f64 = 0.3;
 /// Cosine above which two faces are too parallel to meet.
 const PARALLEL: f64 = 0.94;
 
@@ -111,9 +113,10 @@ impl Blends {
             let facing = |b: &Belongs| group_normal_at(solid, segments, b);
             let mine: Vec<_> = own.iter().map(facing).collect();
             let meets = |b: &Belongs| {
-                let apart =
-                    own.iter().all(|o| o.group != b.group && !self.touch(segments, solid, o.group, b.group));
-                apart && mine.iter().all(|n| n.dot(facing(b)).abs() < PARALLEL)
+                // A rib's side touches that of a rib across it, but not the floor that it is blended with.
+                let is_own = own.iter().any(|o| o.group == b.group);
+                let apart = own.iter().any(|o| !self.touch(segments, solid, o.group, b.group));
+                !is_own && apart && mine.iter().all(|n| n.dot(facing(b)).abs() < PARALLEL)
             };
             let others: Vec<&(f64, Belongs)> = reached.iter().filter(|r| meets(&r.1)).collect();
             let wall = others.iter().find(|r| walls.is_wall[r.1.group as usize]);
@@ -131,9 +134,37 @@ impl Blends {
             }
             let end = others.iter().find(|r| !walls.is_wall[r.1.group as usize] && r.0 <= within);
             let behind: Vec<Belongs> = wall.into_iter().chain(end).map(|r| r.1).collect();
+            let behind = if behind.is_empty() {
+                self.at_an_end(segments, solid, walls, &own, &reached)
+            } else {
+                behind
+            };
             if !behind.is_empty() {
                 self.of_node.entry(node).or_default().extend(behind);
             }
+        }
+    }
+
+    /// For a node where a blend ends on a wall across it: the two nearest walls that it blends, both of which touch that one but not
+    /// each other.
+    fn at_an_end(
+        &self,
+        segments: &Segments,
+        solid: &Solid,
+        walls: &Walls,
+        own: &[Belongs],
+        reached: &[(f64, Belongs)],
+    ) -> Vec<Belongs> {
+        let [across] = own else { return Vec::new() };
+        let touching = |b: &&Belongs| {
+            b.group != across.group
+                && walls.is_wall[b.group as usize]
+                && self.touch(segments, solid, b.group, across.group)
+        };
+        let beside: Vec<Belongs> = reached.iter().map(|r| &r.1).filter(touching).copied().collect();
+        match beside[..] {
+            [p, q] if !self.touch(segments, solid, p.group, q.group) => vec![p, q],
+            _ => Vec::new(),
         }
     }
 
@@ -149,10 +180,11 @@ impl Blends {
     }
 }
 
-/// Whether a plane face without a partner is a narrow strip that turns from wall to wall in two steps.
+/// Whether a plane face without a partner is a narrow strip that turns in two steps: from wall to wall, or from a wall to its end.
 fn is_chamfer(solid: &Solid, segments: &Segments, walls: &Walls, g: u32) -> bool {
     let group = segments.group(g);
-    let (mut outline, mut oblique) = (0.0, 0.0);
+    let (mut outline, mut to_walls, mut to_ends) = (0.0, 0.0, 0.0);
+    let mut about: Vec<u32> = Vec::new();
     for h in group.faces.iter().flat_map(|f| 3 * f..3 * f + 3) {
         let other = segments.of(solid.across(h));
         if other == g {
@@ -161,12 +193,22 @@ fn is_chamfer(solid: &Solid, segments: &Segments, walls: &Walls, g: u32) -> bool
         let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
         let length = a.distance(b);
         outline += length;
-        let cosine = solid.fold_cosine(h);
-        if walls.is_wall[other as usize] && cosine > OBLIQUE.cos() {
-            oblique += length;
+        if solid.fold_cosine(h) > OBLIQUE.cos() {
+            if walls.is_wall[other as usize] {
+                to_walls += length;
+                about.push(other);
+            } else if segments.group(other).plane.is_some() {
+                to_ends += length;
+            }
         }
     }
-    oblique > 0.5 * outline && 2.0 * group.area < walls.max_thickness * outline
+    about.sort_unstable();
+    about.dedup();
+    // What reaches from a wall to its partner is the end of both.
+    let is_end = about.iter().any(|w| walls.partners(*w).iter().any(|p| about.contains(&p.partner)));
+    let narrow = 2.0 * group.area < walls.max_thickness * outline;
+    let from_wall_to_end = to_walls > ONE_SIDE * outline && to_ends > ONE_SIDE * outline && !is_end;
+    narrow && (to_walls > 0.5 * outline || from_wall_to_end)
 }
 
 /// The mean normal of the faces of a group about a node of it.

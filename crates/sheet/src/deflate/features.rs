@@ -8,17 +8,27 @@ use glam::DVec3;
 
 use super::DeflateOptions;
 use super::blends::Blends;
+use super::faces::{Face, Faces};
+use super::middle::ThicknessStep;
 use super::report::Feature;
 use super::segments::Segments;
+use super::shape::Shape;
 use super::solid::Solid;
 use super::walls::Walls;
 
+/// A hollow boss has a skin inside and outside, each no larger than that of a cube about it.
+const BOTH_SIDES: f64 = 2.0;
 /// What stands on a wall is small up to this many thicknesses.
 const SMALL: f64 = 10.0;
 /// Folds within blends and at their borders are less than this, in radians.
 const OBLIQUE: f64 = 70.0 / 180.0 * std::f64::consts::PI;
 /// Faces of a hole look at its axis: the mean share of the way that they do.
 const HOLLOW: f64 = 0.3;
+
+/// Radii that differ by less than this share are one.
+const ONE_RADIUS: f64 = 0.01;
+/// What is said of features that have no middle.
+const NO_MIDDLE: &str = "no mid-surface can hold it: it goes all the same";
 
 /// What was found, and which groups go with what is removed.
 #[derive(Debug)]
@@ -47,24 +57,52 @@ impl Features {
         self.gone.fill(false);
     }
 
+    /// Lists a step in thickness; whether it is to go, which the middles see to.
+    pub(super) fn add_step(
+        &mut self,
+        solid: &Solid,
+        segments: &Segments,
+        step: &ThicknessStep,
+        options: &DeflateOptions,
+    ) -> bool {
+        let faces = &segments.group(step.group).faces;
+        let small = options.simplify.is_some_and(|size| step.height <= size);
+        let asked = options.keep.contains(&self.list.len());
+        self.list.push(Feature {
+            kind: "step",
+            at: middle(solid, faces),
+            size: step.height,
+            faces: faces.len(),
+            removed: small && !asked,
+            kept_because: asked.then_some("kept as asked"),
+        });
+        small && !asked
+    }
+
     /// Finds the features and decides which go. O(n log n), and walls times groups about them.
     pub(super) fn new(
         solid: &Solid,
         segments: &Segments,
         walls: &Walls,
         blends: &Blends,
+        geometry: &Faces,
         options: &DeflateOptions,
     ) -> Self {
         let links = Links::new(solid, segments);
         let mut found: Vec<(Feature, Vec<u32>)> = Vec::new();
         let is_wall = |g: u32| walls.is_wall[g as usize];
         for set in links.sets(|g| !is_wall(g) && blends.is_blend[g as usize]) {
-            if let Some(feature) = blend(solid, segments, walls, blends, &set) {
+            if let Some(mut feature) = blend(solid, segments, walls, blends, &set) {
+                if feature.kind != "chamfer" {
+                    feature.size = radius(segments, geometry, &set.groups).unwrap_or(feature.size);
+                }
                 found.push((feature, Vec::new()));
             }
         }
         for set in links.sets(|g| !is_wall(g)) {
-            if let Some(feature) = hole(solid, segments, walls, &set) {
+            if let Some(mut feature) = hole(solid, segments, walls, &set) {
+                let round = radius(segments, geometry, &set.groups);
+                feature.size = round.map_or(feature.size, |radius| 2.0 * radius);
                 found.push((feature, set.groups));
             }
         }
@@ -74,9 +112,15 @@ impl Features {
         let mut features = Self { list: Vec::new(), gone: vec![false; segments.groups.len()] };
         for (number, (mut feature, groups)) in found.into_iter().enumerate() {
             let small = options.simplify.is_some_and(|size| feature.size <= size);
+            // A lump without walls of its own has no middle.
+            let lump = feature.kind == "boss" && !groups.iter().any(|g| is_wall(*g));
             let kept = options.keep.contains(&number);
             if !groups.is_empty() {
-                if kept {
+                if lump {
+                    feature.removed = true;
+                    feature.kept_because = kept.then_some(NO_MIDDLE);
+                    groups.iter().for_each(|g| features.gone[*g as usize] = true);
+                } else if kept {
                     feature.kept_because = Some("kept as asked");
                 } else if small && feature.kept_because.is_none() {
                     feature.removed = true;
@@ -85,12 +129,31 @@ impl Features {
                     feature.kept_because = None;
                 }
             } else if kept {
-                feature.kept_because = Some("no mid-surface can hold it: it goes all the same");
+                feature.kept_because = Some(NO_MIDDLE);
             }
             features.list.push(feature);
         }
         features
     }
+}
+
+/// The radius of what is round of some groups, if most of them is.
+fn radius(segments: &Segments, geometry: &Faces, groups: &[u32]) -> Option<f64> {
+    let mut areas: Vec<(f64, f64)> = Vec::new();
+    let is_own = |face: &&Face| groups.contains(&segments.of(face.triangles[0]));
+    for face in geometry.list.iter().filter(is_own) {
+        let radius = match face.shape {
+            Shape::Cylinder { radius, .. } | Shape::Sphere { radius, .. } => radius,
+            Shape::Torus { minor, .. } => minor,
+            _ => continue,
+        };
+        match areas.iter_mut().find(|a| (a.0 - radius).abs() < ONE_RADIUS * radius) {
+            Some(known) => known.1 += face.area,
+            None => areas.push((radius, face.area)),
+        }
+    }
+    let most = areas.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    (most.1 > 0.5 * area(segments, groups)).then_some(most.0)
 }
 
 /// Fillets, rounds and chamfers: strips that walls run into and that no mid-surface can hold.
@@ -184,7 +247,9 @@ fn standing_on(
     let mut found = Vec::new();
     for set in links.behind(g) {
         // What holds a partner of the wall is the rest of the part.
-        if set.groups.iter().any(|s| partners.contains(s)) {
+        let large = SMALL * walls.max_thickness;
+        let far_too_large = area(segments, &set.groups) > BOTH_SIDES * 6.0 * large * large;
+        if far_too_large || set.groups.iter().any(|s| partners.contains(s)) {
             continue;
         }
         let faces: Vec<u32> =

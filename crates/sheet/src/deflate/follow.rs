@@ -1,43 +1,67 @@
-//! Curved pieces refined until they follow the middle between both sides of their walls.
+//! Curved pieces refined until they follow the middle between both sides of their walls, and meshed anew to an edge length.
 //!
 //! The two sides of a curved wall are tessellated each in its own way, so the middle between them bends at the edges of
-//! both. Edges are split where their middle is off, and the new nodes put halfway between what is in front and behind.
+//! both. Edges are split where their middle is off, nodes are put halfway, and triangles kept from becoming slivers, which
+//! would fold at the least unevenness.
 
 use std::collections::BTreeMap;
 
 use glam::DVec3;
-use mesh_kernel::TriMesh;
-use mesh_kernel::query::Adjacency;
 use rayon::prelude::*;
 
 use super::assemble::{Sheet, Source};
+use super::exact::Exact;
+use super::remesh::{Nodes, Remesh};
 use super::segments::Segments;
 use super::solid::Solid;
 use super::walls::Walls;
 
 /// An edge is split if its middle is off by more than this share of the thickness.
 const OFF: f64 = 8e-3;
-/// A new node stands off by at most this share of the heights of the faces about it.
+/// A diagonal is right if its middle is off by less than this share of it.
+const RIGHT: f64 = 1e-3;
+/// Nodes are put right if they are off by more than this share of it.
+const NODE_OFF: f64 = 1e-3;
+/// A node is moved by at most this share of its shortest edge, or it would fold the faces about it.
+const NODE_REACH: f64 = 0.35;
+/// A new node stands off by at most this share of its edge.
 const BEND: f64 = 0.2;
-/// Edges shorter than this share of the thickness are left as they are.
-const SHORTEST: f64 = 0.4;
+/// Edges shorter than this share of the thickness are not split.
+const SHORTEST: f64 = 0.5;
+/// Edges shorter than this share of it close.
+const CLOSED: f64 = 0.2;
+/// Nor do edges that are longer than this share of the mean one; equal triangles of edges e have an area of e² / 2.31.
+const SHORTER: f64 = 0.35;
+const EVEN: f64 = 2.31;
+/// Splitting ends when there is less than one in so many edges to be split.
+const FEW: usize = 300;
 /// Rounds of splitting.
 const ROUNDS: usize = 6;
-/// Looks from an edge begin this far from it towards the middle of a face: at a free edge there is nothing to be seen.
+/// Rounds of meshing to an edge length, and which edges are split and closed, over that length.
+const MESHINGS: usize = 8;
+const LONG: f64 = 4.0 / 3.0;
+const SHORT: f64 = 4.0 / 5.0;
+/// Looks from a free edge begin this far from it towards the middle of its face: at the edge there is nothing to be seen.
 const INSET: f64 = 0.04;
 /// The middle is looked for within this share of the thickness.
 const FAR: f64 = 0.3;
+/// Refinement stops at this many times the solid's faces, or of that many.
+const MOST_TIMES: usize = 6;
+const MOST_ANYWAY: usize = 5000;
+/// Meshing to an edge length stops at so many faces.
+const MOST_FACES: usize = 8_000_000;
 
 /// The wall about a point of its middle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Between {
-    /// How far the middle is in front of the point, in mm.
-    pub(super) off: f64,
+    /// The way from the point to the middle, in mm.
+    pub(super) off: DVec3,
     /// How thick the wall is, in mm.
     pub(super) thickness: f64,
 }
 
-/// Looks both ways through the material from a point beside the middle of a wall.
+/// Looks both ways through the material from a point beside the middle of a wall. The middle is where the planes of the faces
+/// that are met are equally far: whatever way one looks, it is the same.
 pub(super) fn between(
     solid: &Solid,
     segments: &Segments,
@@ -50,80 +74,248 @@ pub(super) fn between(
         walls.is_wall[segments.of(f) as usize]
             && solid.normals[f as usize].dot(d) > super::walls::FACET_LEAN.cos()
     });
-    let thickness = up.distance + down.distance;
-    let off = (up.distance - down.distance) / 2.0;
-    (sound && thickness <= walls.max_thickness && off.abs() < FAR * thickness)
+    let [above, below] = [up.face, down.face].map(|f| solid.normals[f as usize]);
+    let far = |f: u32, n: DVec3| n.dot(solid.mesh.positions[solid.mesh.faces[f as usize][0] as usize] - p);
+    let (to_above, to_below) = (far(up.face, above), far(down.face, below));
+    let across = above - below;
+    let off = across * ((to_above - to_below) / across.length_squared());
+    // Along the normal of one of them, as far as it is to the middle twice.
+    let thickness = 2.0 * (to_above + to_below) / (1.0 - above.dot(below));
+    (sound && thickness <= walls.max_thickness && off.length() < FAR * thickness)
         .then_some(Between { off, thickness })
 }
 
-/// Refines the curved pieces of a sheet. O(n log n) a round.
-pub(super) fn follow(sheet: &mut Sheet, solid: &Solid, segments: &Segments, walls: &Walls) {
-    let most = MOST_TIMES * solid.mesh.faces.len().max(MOST_ANYWAY);
-    for _ in 0..ROUNDS {
-        let mesh = TriMesh::new(sheet.positions.clone(), sheet.faces.clone());
-        let adjacency = Adjacency::new(&mesh);
-        let split: Vec<Option<DVec3>> = (0..adjacency.edges().len() as u32)
+/// What is needed to look at a sheet from within.
+struct Follow<'a> {
+    remesh: Remesh<'a>,
+    solid: &'a Solid,
+    segments: &'a Segments,
+    walls: &'a Walls,
+    exact: &'a Exact,
+}
+
+/// Refines the curved pieces of a sheet; with an edge length, meshes them anew to about that. O(n log n) a round.
+pub(super) fn follow(
+    sheet: &mut Sheet,
+    solid: &Solid,
+    segments: &Segments,
+    walls: &Walls,
+    exact: &Exact,
+    edge_length: Option<f64>,
+) {
+    if !sheet.sources.iter().any(|s| matches!(s, Source::Facet(_))) {
+        return;
+    }
+    let follow = Follow { remesh: Remesh { solid }, solid, segments, walls, exact };
+    match edge_length {
+        Some(length) => follow.mesh_to(sheet, length),
+        None => follow.refine(sheet),
+    }
+    // Edges have closed.
+    *sheet = std::mem::take(sheet).without_unused_nodes();
+}
+
+impl Follow<'_> {
+    fn refine(&self, sheet: &mut Sheet) {
+        let most = MOST_TIMES * self.solid.mesh.faces.len().max(MOST_ANYWAY);
+        let short: Vec<f64> = (0..self.segments.groups.len() as u32).map(|g| self.short(g)).collect();
+        let of_face: Vec<f64> = self.segments.of_face.iter().map(|g| short[*g as usize]).collect();
+        for round in 0..=ROUNDS {
+            self.close(sheet, &of_face);
+            self.remesh.turn(sheet, &|old, new, at| self.follows(old, new, at));
+            self.settle(sheet);
+            let wanted = |look: &Look| {
+                let bend = look.off.length() / look.length;
+                look.length > SHORTEST * look.thickness
+                    && look.off.length() > OFF * look.thickness
+                    && bend < BEND
+            };
+            if round == ROUNDS || !self.split(sheet, most, &wanted) {
+                break;
+            }
+        }
+    }
+
+    fn mesh_to(&self, sheet: &mut Sheet, length: f64) {
+        let short = vec![SHORT * length; self.segments.of_face.len()];
+        for _ in 0..MESHINGS {
+            self.split(sheet, MOST_FACES, &|look| look.length > LONG * length);
+            self.close(sheet, &short);
+            self.remesh.turn(sheet, &|_, _, _| true);
+            self.remesh.smooth(sheet);
+            self.settle(sheet);
+            self.name_sources(sheet);
+            self.exact.settle(sheet, &self.remesh.nodes(sheet));
+        }
+        self.remesh.turn(sheet, &|_, _, _| true);
+    }
+
+    /// Whether a diagonal follows the middle, or the old one does not: what both sides agree on stays as it is.
+    fn follows(&self, old: [u32; 2], new: [u32; 2], positions: &[DVec3]) -> bool {
+        let [a, b, c, d] = [old[0], old[1], new[0], new[1]].map(|v| positions[v as usize]);
+        let normal = (b - a).cross(d - c).normalize_or_zero();
+        let off = |[p, q]: [DVec3; 2]| {
+            let seen = between(self.solid, self.segments, self.walls, p.midpoint(q), normal)?;
+            Some(seen.off.length() / seen.thickness)
+        };
+        let is_right = |ends| off(ends).is_none_or(|off| off < RIGHT);
+        is_right([c, d]) || !is_right([a, b])
+    }
+
+    /// Closes edges shorter than is said for faces of the solid.
+    fn close(&self, sheet: &mut Sheet, short: &[f64]) {
+        for _ in 0..ROUNDS {
+            let sources = sheet.sources.clone();
+            let least = |f: u32| match sources[f as usize] {
+                Source::Facet(source) => short[source as usize],
+                Source::Plane(_) => 0.0,
+            };
+            if !self.remesh.close(sheet, &least) {
+                break;
+            }
+        }
+    }
+
+    /// Edges of a group close if they are shorter than this: a share of the thickness, but not those of an evenly fine mesh.
+    fn short(&self, g: u32) -> f64 {
+        let most = self.walls.partners(g).iter().max_by(|a, b| a.area.total_cmp(&b.area));
+        let group = self.segments.group(g);
+        let edge = (EVEN * group.area / group.faces.len().max(1) as f64).sqrt();
+        most.map_or(0.0, |p| (CLOSED * p.thickness).min(SHORTER * edge))
+    }
+
+    /// Puts nodes inside of curved pieces halfway. O(n log n).
+    fn settle(&self, sheet: &mut Sheet) {
+        let nodes = self.remesh.nodes(sheet);
+        let n = sheet.positions.len();
+        let (mut normals, mut shortest) = (vec![DVec3::ZERO; n], vec![f64::INFINITY; n]);
+        for f in 0..sheet.faces.len() as u32 {
+            let normal = nodes.mesh.area_normal(f);
+            for v in sheet.faces[f as usize] {
+                normals[v as usize] += normal;
+            }
+        }
+        for [a, b] in nodes.adjacency.edges() {
+            let length = sheet.positions[*a as usize].distance(sheet.positions[*b as usize]);
+            for v in [a, b] {
+                shortest[*v as usize] = shortest[*v as usize].min(length);
+            }
+        }
+        let moved: Vec<Option<DVec3>> = (0..n)
             .into_par_iter()
-            .map(|e| split_at(sheet, &mesh, &adjacency, solid, segments, walls, e))
+            .map(|v| {
+                let normal = Some(normals[v].normalize_or_zero());
+                let normal = normal.filter(|n| nodes.inside[v] && *n != DVec3::ZERO)?;
+                let p = sheet.positions[v];
+                let seen = between(self.solid, self.segments, self.walls, p, normal)?;
+                let off = seen.off.clamp_length_max(NODE_REACH * shortest[v]);
+                (off.length() > NODE_OFF * seen.thickness).then_some(p + off)
+            })
             .collect();
+        let before = sheet.positions.clone();
+        for (p, moved) in sheet.positions.iter_mut().zip(&moved) {
+            *p = moved.unwrap_or(*p);
+        }
+        self.withdraw(sheet, &before);
+    }
+
+    /// Puts nodes of faces that lean too much back to where they were.
+    fn withdraw(&self, sheet: &mut Sheet, before: &[DVec3]) {
+        for _ in 0..ROUNDS {
+            let leans = |f: u32, positions: &[DVec3]| {
+                let corners = sheet.faces[f as usize].map(|v| positions[v as usize]);
+                self.remesh.leans(sheet, f, corners)
+            };
+            let leaning: Vec<u32> = (0..sheet.faces.len() as u32)
+                .filter(|f| leans(*f, &sheet.positions) && !leans(*f, before))
+                .collect();
+            if leaning.is_empty() {
+                return;
+            }
+            for v in leaning.into_iter().flat_map(|f| sheet.faces[f as usize]) {
+                sheet.positions[v as usize] = before[v as usize];
+            }
+        }
+    }
+
+    /// Splits the wanted edges of curved pieces in the middle; whether there were any.
+    fn split(&self, sheet: &mut Sheet, most: usize, wanted: &(dyn Fn(&Look) -> bool + Sync)) -> bool {
+        let nodes = self.remesh.nodes(sheet);
+        let split: Vec<Option<Look>> = (0..nodes.adjacency.edges().len() as u32)
+            .into_par_iter()
+            .map(|e| self.look(sheet, &nodes, e).filter(wanted))
+            .collect();
+        let count = split.iter().flatten().count();
+        if count <= split.len() / FEW || sheet.faces.len() + 2 * count > most {
+            return false;
+        }
+        let mut before = sheet.positions.clone();
         let mut middles: BTreeMap<u32, u32> = BTreeMap::new();
-        for (e, place) in (0u32..).zip(split) {
-            if let Some(p) = place {
-                sheet.positions.push(p);
+        for (e, look) in (0u32..).zip(split) {
+            if let Some(look) = look {
+                before.push(look.middle);
+                sheet.positions.push(look.middle + look.off);
                 middles.insert(e, sheet.positions.len() as u32 - 1);
             }
         }
-        if middles.is_empty() || sheet.faces.len() + 2 * middles.len() > most {
-            return;
-        }
         let (faces, sources) = (std::mem::take(&mut sheet.faces), std::mem::take(&mut sheet.sources));
         for ((f, face), source) in (0u32..).zip(&faces).zip(sources) {
-            let on_side = |k: u32| adjacency.edge_of(3 * f + k).and_then(|e| middles.get(&e).copied());
+            let on_side = |k: u32| nodes.adjacency.edge_of(3 * f + k).and_then(|e| middles.get(&e).copied());
             for part in parts(*face, [on_side(0), on_side(1), on_side(2)], &sheet.positions) {
                 sheet.faces.push(part);
                 sheet.sources.push(source);
             }
         }
+        self.withdraw(sheet, &before);
+        true
+    }
+
+    /// What is to be seen from the middle of an edge of curved pieces; nothing where a plane piece has a part in it: those end in
+    /// straight lines.
+    fn look(&self, sheet: &Sheet, nodes: &Nodes, e: u32) -> Option<Look> {
+        let half_edges = nodes.adjacency.half_edges(e);
+        let [a, b] = nodes.adjacency.edges()[e as usize].map(|v| nodes.mesh.positions[v as usize]);
+        let (middle, length) = (a.midpoint(b), a.distance(b));
+        let (mut off, mut thickness, mut count) = (DVec3::ZERO, 0.0, 0.0);
+        for h in half_edges {
+            self.remesh.normal(sheet, h / 3)?;
+            let [p, q, r] = nodes.mesh.corners(h / 3);
+            let normal = (q - p).cross(r - p).normalize_or_zero();
+            let from = middle.lerp((p + q + r) / 3.0, INSET);
+            if let Some(seen) = between(self.solid, self.segments, self.walls, from, normal) {
+                (off, thickness, count) = (off + seen.off, thickness + seen.thickness, count + 1.0);
+            }
+        }
+        let (off, thickness) = if count > 0.0 { (off / count, thickness / count) } else { (off, thickness) };
+        Some(Look { middle, length, off, thickness })
+    }
+
+    /// Gives faces that have moved the facets that they lie below now.
+    fn name_sources(&self, sheet: &mut Sheet) {
+        let named = |(face, source): (&[u32; 3], &Source)| -> Source {
+            let Source::Facet(old) = *source else { return *source };
+            let [a, b, c] = face.map(|v| sheet.positions[v as usize]);
+            let normal = (b - a).cross(c - a).normalize_or_zero();
+            let hit = self.walls.first(self.solid, (a + b + c) / 3.0, normal);
+            let same = |f: u32| {
+                self.segments.of(f) == self.segments.of(old)
+                    && self.solid.normals[f as usize].dot(normal) > 0.5
+            };
+            hit.filter(|hit| same(hit.face)).map_or(*source, |hit| Source::Facet(hit.face))
+        };
+        let sources: Vec<Source> = sheet.faces.par_iter().zip(&sheet.sources).map(named).collect();
+        sheet.sources = sources;
     }
 }
 
-/// Refinement stops at this many times the solid's faces, or of that many.
-const MOST_TIMES: usize = 6;
-const MOST_ANYWAY: usize = 5000;
-
-/// Where an edge of curved pieces is to be split, if it is.
-fn split_at(
-    sheet: &Sheet,
-    mesh: &TriMesh,
-    adjacency: &Adjacency,
-    solid: &Solid,
-    segments: &Segments,
-    walls: &Walls,
-    e: u32,
-) -> Option<DVec3> {
-    let [a, b] = adjacency.edges()[e as usize].map(|v| mesh.positions[v as usize]);
-    let middle = (a + b) / 2.0;
-    let (mut off, mut count) = (DVec3::ZERO, 0.0);
-    let (mut worst, mut lowest) = (0.0f64, f64::INFINITY);
-    for h in adjacency.half_edges(e) {
-        let f = h / 3;
-        // Plane pieces end in straight lines.
-        let Source::Facet(source) = sheet.sources[f as usize] else { return None };
-        let normal = solid.normals[source as usize];
-        let [p, q, r] = mesh.corners(f);
-        lowest = lowest.min((q - p).cross(r - p).length() / a.distance(b));
-        let from = middle.lerp((p + q + r) / 3.0, INSET);
-        let Some(seen) = between(solid, segments, walls, from, normal) else { continue };
-        if a.distance(b) < SHORTEST * seen.thickness {
-            return None;
-        }
-        off += normal * seen.off;
-        worst = worst.max(seen.off.abs() / seen.thickness);
-        count += 1.0;
-    }
-    // A node that leaves a low face would fold it.
-    let bend = off.length() / count / lowest.min(a.distance(b) / 2.0);
-    (count > 0.0 && worst > OFF && bend < BEND).then(|| middle + off / count)
+/// The wall about the middle of an edge.
+struct Look {
+    middle: DVec3,
+    /// Of the edge.
+    length: f64,
+    /// The way to the middle of the wall; none where nothing is seen.
+    off: DVec3,
+    thickness: f64,
 }
 
 /// A face with nodes on some of its sides, as triangles; quadrangles are cut along their shorter diagonal.

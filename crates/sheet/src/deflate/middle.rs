@@ -13,6 +13,8 @@ use super::walls::Walls;
 const COUNTED: f64 = 0.02;
 /// A wall has an exact mid-plane if plane partners cover this share of what has a partner.
 const MOSTLY: f64 = 0.8;
+/// Mid-planes that are apart by less than this share of the thickness make no step.
+const STEP: f64 = 0.01;
 /// Cosine of the angle between middles that can be aligned.
 const ALIGNED: f64 = 0.999;
 /// Looks through the material at a corner begin this far from it towards the middle of the face.
@@ -27,6 +29,19 @@ pub(super) struct Middle {
     pub(super) exact: Option<u32>,
     /// How thick the wall is there, in mm.
     pub(super) thickness: f64,
+}
+
+/// A face that stands between two walls where the thickness steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ThicknessStep {
+    /// The group of the face.
+    pub(super) group: u32,
+    /// The kept wall on its thinner side.
+    thinner: u32,
+    /// And on its thicker side.
+    thicker: u32,
+    /// Of the face, across the walls, in mm.
+    pub(super) height: f64,
 }
 
 /// The middles of all walls.
@@ -82,8 +97,15 @@ impl Middles {
         Self { planes, plane_of, between, of_group, mid_planes }
     }
 
-    /// Where a step in thickness stands between two kept walls, moves the middle of the thinner one to that of the thicker.
-    pub(super) fn align_steps(&mut self, solid: &Solid, segments: &Segments, walls: &Walls, kept: &[bool]) {
+    /// Where the thickness steps: faces that stand between two kept walls whose mid-planes are parallel and apart. O(n).
+    pub(super) fn steps(
+        &self,
+        solid: &Solid,
+        segments: &Segments,
+        walls: &Walls,
+        kept: &[bool],
+    ) -> Vec<ThicknessStep> {
+        let mut found = Vec::new();
         for (g, group) in (0u32..).zip(&segments.groups) {
             if walls.is_wall[g as usize] || group.plane.is_none() {
                 continue;
@@ -94,13 +116,30 @@ impl Middles {
             beside.sort_unstable();
             beside.dedup();
             let thick = |g: u32| walls.partners(g).iter().map(|p| p.thickness).fold(0.0, f64::max);
-            let Some(&thickest) = beside.iter().max_by(|a, b| thick(**a).total_cmp(&thick(**b))) else {
-                continue;
+            let thickest = beside.iter().copied().max_by(|a, b| thick(*a).total_cmp(&thick(*b)));
+            let Some((thicker, to)) = thickest.and_then(|t| Some((t, self.only(t)?))) else { continue };
+            let range = |plane: Plane| {
+                let corners = group.faces.iter().flat_map(|f| solid.mesh.corners(*f));
+                let heights = corners.map(|p| plane.height(p));
+                heights.fold((f64::MAX, f64::MIN), |(low, high), h| (low.min(h), high.max(h)))
             };
-            for thinner in beside.into_iter().filter(|b| *b != thickest) {
-                self.align(walls, thinner, thickest);
+            for thinner in beside.into_iter().filter(|b| *b != thicker) {
+                let Some(from) = self.only(thinner) else { continue };
+                let apart = (from.offset - to.offset).abs() > STEP * thick(thinner);
+                // An end of both reaches over their middles, a step stands on one side.
+                let (low, high) = range(from);
+                let on_a_side = low > 0.0 || high < 0.0;
+                if from.normal.dot(to.normal) > ALIGNED && apart && on_a_side {
+                    found.push(ThicknessStep { group: g, thinner, thicker, height: high - low });
+                }
             }
         }
+        found
+    }
+
+    /// Moves the middle of the thinner wall at a step to that of the thicker.
+    pub(super) fn align_step(&mut self, walls: &Walls, step: &ThicknessStep) {
+        self.align(walls, step.thinner, step.thicker);
     }
 
     fn align(&mut self, walls: &Walls, thinner: u32, thicker: u32) {

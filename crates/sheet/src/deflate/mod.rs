@@ -3,33 +3,45 @@
 mod assemble;
 mod blends;
 mod error;
+mod exact;
+mod faces;
 mod features;
 mod fill;
+mod fit;
 mod follow;
 mod middle;
+mod nearness;
 mod options;
 mod patches;
 mod plan;
 mod plane;
+mod remesh;
 mod replace;
 mod report;
 mod seams;
 mod segments;
+mod shape;
 mod sides;
 mod solid;
+mod star;
 mod thickness;
 mod topology;
 mod walls;
 
 pub use error::DeflateError;
 pub use options::{DeflateOptions, Steps};
-pub use report::{DeflateReport, Feature, ThicknessRange, UnpairedFace};
+pub use report::{DeflateReport, Feature, SkinFace, ThicknessRange, UnpairedFace, WallPair};
+pub use shape::Shape;
+
+use std::collections::BTreeSet;
 
 use mesh_kernel::TriMesh;
 use mesh_kernel::query::Crossings;
 
-use assemble::{Moved, assemble};
+use assemble::{Moved, Sheet, Source, assemble};
 use blends::Blends;
+use exact::Exact;
+use faces::Faces;
 use features::Features;
 use follow::follow;
 use middle::Middles;
@@ -134,30 +146,47 @@ pub fn deflate(
     let flares = walls.flares(&solid, &segments);
     if !flares.is_empty() {
         segments.split_off(&flares, &solid);
-        walls = Walls::new(&solid, &segments, options);
+        walls.pair(&solid, &segments, options);
     }
+    let mut faces = Faces::new(&solid, &segments);
+    let mut wall_pairs = report::wall_pairs(&solid, &segments, &walls, &faces);
+    let fillets = walls.fillets(&segments, &faces, &wall_pairs);
+    if !fillets.is_empty() {
+        segments.split_off(&fillets, &solid);
+        walls.pair(&solid, &segments, options);
+        faces = Faces::new(&solid, &segments);
+        wall_pairs = report::wall_pairs(&solid, &segments, &walls, &faces);
+    }
+    let exact = Exact::new(&faces, &wall_pairs);
     let blends = Blends::new(&solid, &segments, &walls);
     if walls.paired_share < THIN {
-        let unpaired = unpaired(&solid, &segments, &walls, 0.0);
+        let unpaired = unpaired(&solid, &segments, &walls, &[], 0.0);
         let (paired, max_thickness) = (walls.paired_share, walls.max_thickness);
         return Err(DeflateError::Bulky { paired, max_thickness, unpaired });
     }
     begin(Step::Replace)?;
-    let mut features = Features::new(&solid, &segments, &walls, &blends, options);
+    let mut features = Features::new(&solid, &segments, &walls, &blends, &faces, options);
     let mut middles = Middles::new(&solid, &segments, &walls);
     let kept = kept_groups(&solid, &segments, &walls, &blends, &middles.of_group);
-    if options.steps == Steps::Aligned {
-        middles.align_steps(&solid, &segments, &walls, &kept);
+    for step in middles.steps(&solid, &segments, &walls, &kept) {
+        let removed = features.add_step(&solid, &segments, &step, options);
+        if removed || options.steps == Steps::Aligned {
+            middles.align_step(&walls, &step);
+        }
     }
     let corners = middles.at_corners(&solid, &segments, &walls);
     let replacement = Replacement::new(&solid, &segments, &walls, &middles, &blends, &corners);
-    let moved = Moved { positions: replacement.positions(), soft: replacement.beside_facets() };
+    let nodes = 0..solid.mesh.positions.len() as u32;
+    let blended = nodes.map(|v| !blends.behind(v).is_empty()).collect();
+    let moved = Moved { positions: replacement.positions(), soft: replacement.beside_facets(), blended };
     begin(Step::Stitch)?;
+    // A mesh of its own has nodes on exact middles; one that follows the facets is as thick as they are apart.
+    let on_exact = options.edge_length.map(|_| &exact);
     let stitch = |gone: &[bool]| {
         let kept: Vec<bool> = kept.iter().zip(gone).map(|(kept, gone)| *kept && !gone).collect();
         let mut sheet = assemble(&solid, &segments, &walls, &middles, gone, &kept, &moved, options);
-        follow(&mut sheet, &solid, &segments, &walls);
-        let thickness = thicknesses(&sheet, &solid, &segments, &walls, &middles, &corners);
+        follow(&mut sheet, &solid, &segments, &walls, &exact, options.edge_length);
+        let thickness = thicknesses(&sheet, &solid, &segments, &walls, &middles, &corners, on_exact);
         let patched = patched(&sheet, &segments);
         let crossing = Crossings::new(&patched.mesh).self_crossing().len();
         (sheet, thickness, patched, crossing)
@@ -170,7 +199,7 @@ pub fn deflate(
             features.undo();
         }
     }
-    let unpaired = unpaired(&solid, &segments, &walls, END_WIDTH);
+    let unpaired = unpaired(&solid, &segments, &walls, &features.gone, END_WIDTH);
     begin(Step::Measure)?;
     let thickness: Vec<f64> = patched.order.iter().map(|f| thickness[*f as usize]).collect();
     let mesh = patched.mesh;
@@ -179,6 +208,8 @@ pub fn deflate(
     let area: f64 = areas.iter().sum();
     let report = DeflateReport {
         features: features.list,
+        wall_pairs,
+        faces: report::skin_faces(&solid, &faces),
         pairs: walls.pairs.iter().filter(|p| p.group < p.partner).count(),
         unpaired,
         patches: mesh.groups.len(),
@@ -193,7 +224,7 @@ pub fn deflate(
         },
         max_thickness: walls.max_thickness,
         paired_share: walls.paired_share,
-        steps: sheet.planes.iter().filter(|p| p.1).count(),
+        steps: steps_of(&sheet, &segments, &walls),
         self_intersections: crossing,
         lost_edges: sheet.lost,
         solid_volume: solid.volume,
@@ -201,14 +232,29 @@ pub fn deflate(
     Ok(Deflated { sheet: mesh, thickness, report })
 }
 
+/// How many faces of the solid stand between two middles and are in the sheet.
+fn steps_of(sheet: &Sheet, segments: &Segments, walls: &Walls) -> usize {
+    let step = |source: &Source| match *source {
+        Source::Plane(k) => sheet.planes[k as usize].1.then_some((0, k)),
+        Source::Facet(f) => (!walls.is_wall[segments.of(f) as usize]).then_some((1, segments.of(f))),
+    };
+    sheet.sources.iter().filter_map(step).collect::<BTreeSet<_>>().len()
+}
+
 /// A face no wider than this many thicknesses is the end of a wall, or a blend.
 const END_WIDTH: f64 = 1.5;
 
-/// Groups that are no walls and wider than some thicknesses, the largest first.
-fn unpaired(solid: &Solid, segments: &Segments, walls: &Walls, wider: f64) -> Vec<UnpairedFace> {
+/// Groups that are no walls, did not go and are wider than some thicknesses, the largest first.
+fn unpaired(
+    solid: &Solid,
+    segments: &Segments,
+    walls: &Walls,
+    gone: &[bool],
+    wider: f64,
+) -> Vec<UnpairedFace> {
     let mut found = Vec::new();
-    for (group, is_wall) in segments.groups.iter().zip(&walls.is_wall) {
-        if *is_wall {
+    for ((g, group), is_wall) in segments.groups.iter().enumerate().zip(&walls.is_wall) {
+        if *is_wall || gone.get(g).copied().unwrap_or(false) {
             continue;
         }
         let outline: f64 = group

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 
+use super::assemble::Moved;
 use super::middle::Middles;
 use super::plane::Plane;
 use super::segments::Segments;
@@ -58,7 +59,7 @@ pub(super) fn plan(
     middles: &Middles,
     gone: &[bool],
     kept: &[bool],
-    moved: &[DVec3],
+    moved: &Moved,
     options: &DeflateOptions,
 ) -> Plan {
     let mut by_plane: BTreeMap<u32, PlanePiece> = BTreeMap::new();
@@ -98,7 +99,8 @@ pub(super) fn plan(
         }
     }
     if options.steps != Steps::Apart {
-        planes.extend(steps(solid, segments, walls, gone, kept, moved));
+        planes.extend(steps(solid, segments, walls, gone, kept, &moved.positions));
+        curved.extend(round_steps(solid, segments, walls, gone, kept, moved));
     }
     Plan { planes, curved }
 }
@@ -159,6 +161,41 @@ fn steps(
         }
     }
     found
+}
+
+/// Curved faces without a partner that stand between two middles: the side of a blind hole.
+fn round_steps(
+    solid: &Solid,
+    segments: &Segments,
+    walls: &Walls,
+    gone: &[bool],
+    kept: &[bool],
+    moved: &Moved,
+) -> Vec<u32> {
+    let Moved { positions: moved, blended, .. } = moved;
+    let is_step = |g: &u32| {
+        let group = segments.group(*g);
+        let is_blend =
+            || group.faces.iter().flat_map(|f| solid.mesh.faces[*f as usize]).any(|v| blended[v as usize]);
+        if group.plane.is_some() || walls.is_wall[*g as usize] || gone[*g as usize] || is_blend() {
+            return false;
+        }
+        let sides = group.faces.iter().flat_map(|f| 3 * f..3 * f + 3);
+        let beside: BTreeSet<u32> =
+            sides.map(|h| segments.of(solid.across(h))).filter(|o| kept[*o as usize]).collect();
+        let length: f64 = border(solid, segments, gone, *g)
+            .map(|[a, b]| moved[a as usize].distance(moved[b as usize]))
+            .sum();
+        let area = |f: &u32| {
+            let [a, b, c] = solid.mesh.faces[*f as usize].map(|v| moved[v as usize]);
+            (b - a).cross(c - a).length() / 2.0
+        };
+        let width = 2.0 * group.faces.iter().map(area).sum::<f64>() / length.max(f64::MIN_POSITIVE);
+        let thin =
+            beside.iter().flat_map(|b| walls.partners(*b)).map(|p| p.thickness).fold(f64::MAX, f64::min);
+        beside.len() > 1 && width > STEP * thin && width < walls.max_thickness
+    };
+    (0..segments.groups.len() as u32).filter(is_step).collect()
 }
 
 /// The plane of a step stays where it was: its nodes move within it.

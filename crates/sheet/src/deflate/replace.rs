@@ -9,6 +9,7 @@ use super::middle::{Middle, Middles};
 use super::plane::Plane;
 use super::segments::Segments;
 use super::solid::Solid;
+use super::star::Star;
 use super::walls::Walls;
 
 /// Two planes meet in a line if the sine of the angle between them is more than this.
@@ -40,35 +41,6 @@ pub(super) struct Replacement<'a> {
     pub(super) corners: &'a [[Option<Middle>; 3]],
     /// Faces at every node, with the corner: `3 face + corner`.
     star: Star,
-}
-
-/// Corners at every node.
-struct Star {
-    starts: Vec<u32>,
-    corners: Vec<u32>,
-}
-
-impl Star {
-    fn new(faces: &[[u32; 3]], nodes: usize) -> Self {
-        let mut starts = vec![0u32; nodes + 1];
-        for v in faces.iter().flatten() {
-            starts[*v as usize + 1] += 1;
-        }
-        for v in 0..nodes {
-            starts[v + 1] += starts[v];
-        }
-        let mut fill = starts.clone();
-        let mut corners = vec![0; 3 * faces.len()];
-        for (k, v) in (0..).zip(faces.iter().flatten()) {
-            corners[fill[*v as usize] as usize] = k;
-            fill[*v as usize] += 1;
-        }
-        Self { starts, corners }
-    }
-
-    fn of(&self, v: u32) -> &[u32] {
-        &self.corners[self.starts[v as usize] as usize..self.starts[v as usize + 1] as usize]
-    }
 }
 
 /// The planes that a node has to lie on, and those that it should lie beside.

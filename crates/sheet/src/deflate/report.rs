@@ -2,8 +2,17 @@
 
 use std::fmt;
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
+use rayon::prelude::*;
 use serde::Serialize;
+
+use super::faces::Faces;
+use super::segments::Segments;
+use super::shape::Shape;
+use super::solid::Solid;
+use super::walls::Walls;
 
 /// A face of the solid that has no partner and is no thickness face of a wall.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -21,6 +30,33 @@ impl fmt::Display for UnpairedFace {
         let p = self.at;
         write!(f, "the {} face of {:.1} mm² at ({:.2}, {:.2}, {:.2})", self.kind, self.area, p.x, p.y, p.z)
     }
+}
+
+/// A face of the solid's skin with its geometry.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SkinFace {
+    /// What it is, with its measures.
+    #[serde(flatten)]
+    pub shape: Shape,
+    /// Whether it is hollow: the side of a hole, the inner side of a bend.
+    pub concave: bool,
+    /// A point of it, about its middle.
+    pub at: DVec3,
+    /// Area in mm².
+    pub area: f64,
+    /// How many triangles it has.
+    pub triangles: usize,
+}
+
+/// Two faces that are as far from each other everywhere.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct WallPair {
+    /// Their numbers in the list of faces, the smaller first.
+    pub faces: [usize; 2],
+    /// What lies halfway between them.
+    pub middle: Shape,
+    /// How far they are apart, in mm; told from their geometry, not from facets.
+    pub thickness: f64,
 }
 
 /// A small feature that was found.
@@ -57,6 +93,10 @@ pub struct ThicknessRange {
 pub struct DeflateReport {
     /// Features that were found, in the order of their faces.
     pub features: Vec<Feature>,
+    /// Faces of the solid's skin, in the order of their first triangles.
+    pub faces: Vec<SkinFace>,
+    /// Pairs of faces with an exact middle, ordered.
+    pub wall_pairs: Vec<WallPair>,
     /// Pairs of walls that lie opposite to each other.
     pub pairs: usize,
     /// Faces without a partner, other than the ends of walls; the largest first.
@@ -85,4 +125,52 @@ pub struct DeflateReport {
     pub lost_edges: usize,
     /// Volume of the solid in mm³.
     pub solid_volume: f64,
+}
+
+/// The faces as the report has them. O(n).
+pub(super) fn skin_faces(solid: &Solid, faces: &Faces) -> Vec<SkinFace> {
+    let listed = |face: &super::faces::Face| {
+        let largest = face
+            .triangles
+            .iter()
+            .max_by(|f, g| solid.areas[**f as usize].total_cmp(&solid.areas[**g as usize]).then(g.cmp(f)));
+        SkinFace {
+            shape: face.shape,
+            concave: face.concave,
+            at: largest.map_or(DVec3::ZERO, |f| solid.centroid(*f)),
+            area: face.area,
+            triangles: face.triangles.len(),
+        }
+    };
+    faces.list.iter().map(listed).collect()
+}
+
+/// Faces that see each other through the material over this share of the smaller one are a pair.
+const SEEN: f64 = 0.1;
+
+/// Which faces with an exact middle between them see each other. O(n log n).
+pub(super) fn wall_pairs(solid: &Solid, segments: &Segments, walls: &Walls, faces: &Faces) -> Vec<WallPair> {
+    let looks: Vec<Option<([u32; 2], f64)>> = (0..solid.len())
+        .into_par_iter()
+        .map(|f| {
+            let own = faces.of[f as usize];
+            let seen = walls.opposite(solid, segments, f, solid.centroid(f))?;
+            let other = faces.of[seen.face as usize];
+            (own != other).then(|| ([own.min(other), own.max(other)], solid.areas[f as usize]))
+        })
+        .collect();
+    let mut areas: BTreeMap<[u32; 2], f64> = BTreeMap::new();
+    for (pair, area) in looks.into_iter().flatten() {
+        *areas.entry(pair).or_default() += area;
+    }
+    let pair = |([a, b], area): ([u32; 2], f64)| {
+        let [f, g] = [a, b].map(|k| &faces.list[k as usize]);
+        let (middle, thickness) = f.shape.middle(&g.shape)?;
+        (area > SEEN * f.area.min(g.area)).then_some(WallPair {
+            faces: [a as usize, b as usize],
+            middle,
+            thickness,
+        })
+    };
+    areas.into_iter().filter_map(pair).collect()
 }

@@ -8,6 +8,8 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
+use super::nearness::{Nearness, crossing, near_pairs};
+
 /// Union–find in which the smaller number stands for both.
 #[derive(Debug)]
 pub(super) struct Merged {
@@ -61,15 +63,6 @@ pub(super) struct Seams {
     pieces: Vec<Vec<u32>>,
 }
 
-/// How near things must be to be one, in mm.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Nearness {
-    /// For what is exact: rounding.
-    pub(super) rounding: f64,
-    /// For borders of curved pieces, which are chords.
-    pub(super) chords: f64,
-}
-
 /// A part of a border between two neighbouring nodes, and how many pieces it borders.
 type Part = ([u32; 2], usize);
 
@@ -105,7 +98,30 @@ impl Seams {
                 break;
             }
         }
+        for _ in 0..SHORT_ROUNDS {
+            seams.merge_short(SHORT * near.chords);
+        }
         seams
+    }
+
+    /// Closes parts between nodes that are only as exact as chords and so near to each other that the border would zigzag.
+    fn merge_short(&mut self, least: f64) {
+        let length = |[a, b]: &[u32; 2]| self.positions[*a as usize].distance(self.positions[*b as usize]);
+        let parts = self.parts().into_iter().map(|p| p.0);
+        let is_soft = |[a, b]: &[u32; 2]| self.soft[*a as usize] && self.soft[*b as usize];
+        let mut short: Vec<(f64, [u32; 2])> =
+            parts.filter(is_soft).map(|p| (length(&p), p)).filter(|p| p.0 < least).collect();
+        short.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let mut used = vec![false; self.positions.len()];
+        for (_, [a, b]) in short {
+            if !(used[a as usize] || used[b as usize]) {
+                (used[a as usize], used[b as usize]) = (true, true);
+                let stays = a.min(b) as usize;
+                self.positions[stays] = self.positions[a as usize].midpoint(self.positions[b as usize]);
+                self.merged.join(a, b);
+            }
+        }
+        self.update();
     }
 
     /// The nodes from `a` to `b` along an edge, both ends included, after merging and cutting; one node where they are one.
@@ -353,6 +369,9 @@ impl Seams {
     }
 }
 
+/// Parts of borders shorter than this share of what chords may be apart close, in so many rounds.
+const SHORT: f64 = 0.35;
+const SHORT_ROUNDS: usize = 2;
 /// Parts that an edge is cut into, at most.
 const MOST_PARTS: f64 = 1e5;
 /// Rounds of merging nodes across gaps, at most.
@@ -363,38 +382,3 @@ const MERGED_EDGE: f64 = 0.4;
 const SAGITTA: f64 = 0.2;
 /// Sine of the angle between chords of the same border, at most.
 const BESIDE: f64 = 0.5;
-
-/// Pairs of nodes at most `distance` apart, in ascending order. O(n log n).
-fn near_pairs(positions: &[DVec3], nodes: &[u32], distance: f64) -> Vec<(u32, u32)> {
-    let mut order: Vec<u32> = nodes.to_vec();
-    // A direction in which regular parts have few nodes level.
-    let key = |v: u32| positions[v as usize].dot(DVec3::new(0.743, 0.557, 0.371));
-    order.sort_by(|a, b| key(*a).total_cmp(&key(*b)).then(a.cmp(b)));
-    let mut pairs = Vec::new();
-    for (i, &a) in order.iter().enumerate() {
-        for &b in &order[i + 1..] {
-            if key(b) - key(a) > distance {
-                break;
-            }
-            if positions[a as usize].distance(positions[b as usize]) <= distance {
-                pairs.push((a.min(b), a.max(b)));
-            }
-        }
-    }
-    pairs.sort_unstable();
-    pairs
-}
-
-/// Where two segments that are not parallel cross, as shares of their lengths, both inside.
-fn crossing(a: DVec3, b: DVec3, c: DVec3, d: DVec3, distance: f64) -> Option<(f64, f64)> {
-    let (u, v, w) = (b - a, d - c, c - a);
-    let normal = u.cross(v);
-    let square = normal.length_squared();
-    if square < 1e-6 * u.length_squared() * v.length_squared() {
-        return None;
-    }
-    let (s, t) = (w.cross(v).dot(normal) / square, w.cross(u).dot(normal) / square);
-    let (ends_u, ends_v) = (distance / u.length(), distance / v.length());
-    let inside = s > ends_u && s < 1.0 - ends_u && t > ends_v && t < 1.0 - ends_v;
-    (inside && (a + u * s).distance(c + v * t) <= distance).then_some((s, t))
-}

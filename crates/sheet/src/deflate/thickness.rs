@@ -8,13 +8,14 @@ use mesh_kernel::query::Adjacency;
 use rayon::prelude::*;
 
 use super::assemble::{Sheet, Source};
+use super::exact::Exact;
 use super::follow::between;
 use super::middle::{Middle, Middles};
 use super::segments::Segments;
 use super::solid::Solid;
 use super::walls::Walls;
 
-/// A thickness a face, in mm. O(n log n).
+/// A thickness a face, in mm; with `exact`, that of the faces' geometry where there is one. O(n log n).
 pub(super) fn thicknesses(
     sheet: &Sheet,
     solid: &Solid,
@@ -22,10 +23,15 @@ pub(super) fn thicknesses(
     walls: &Walls,
     middles: &Middles,
     corners: &[[Option<Middle>; 3]],
+    exact: Option<&Exact>,
 ) -> Vec<f64> {
     let mesh = TriMesh::new(sheet.positions.clone(), sheet.faces.clone());
     let of = |f: usize| match sheet.sources[f] {
+        Source::Facet(source) if !walls.is_wall[segments.of(source) as usize] => None,
         Source::Facet(source) => {
+            if let Some((_, thickness)) = exact.and_then(|e| e.of(sheet.sources[f])) {
+                return Some(thickness);
+            }
             let [a, b, c] = mesh.corners(f as u32);
             let normal = solid.normals[source as usize];
             between(solid, segments, walls, (a + b + c) / 3.0, normal)
@@ -46,7 +52,12 @@ pub(super) fn thicknesses(
         Source::Plane(k) => sheet.groups[k as usize].iter().find_map(|g| main_thickness(walls, *g)),
         Source::Facet(source) => main_thickness(walls, segments.of(source)),
     };
-    let mut spread = spread(&mesh, sheet, known);
+    let is_step = |source: &Source| match source {
+        Source::Plane(k) => sheet.planes[*k as usize].1,
+        Source::Facet(f) => !walls.is_wall[segments.of(*f) as usize],
+    };
+    let steps: Vec<bool> = sheet.sources.iter().map(is_step).collect();
+    let mut spread = spread(&mesh, sheet, &steps, known);
     for (f, t) in spread.iter_mut().enumerate() {
         if t.is_none() {
             *t = fallback(f);
@@ -101,23 +112,16 @@ fn between_planes(
 }
 
 /// Faces that do not know take what their neighbours in the same plane have, the nearest first.
-fn spread(mesh: &TriMesh, sheet: &Sheet, mut known: Vec<Option<f64>>) -> Vec<Option<f64>> {
+fn spread(mesh: &TriMesh, sheet: &Sheet, is_step: &[bool], mut known: Vec<Option<f64>>) -> Vec<Option<f64>> {
     let adjacency = Adjacency::new(mesh);
     let mut queue: VecDeque<u32> = (0..known.len() as u32).filter(|f| known[*f as usize].is_some()).collect();
     // Steps are as thin as the thinnest wall that they join, so they ask last and across folds.
-    let mut steps = Vec::new();
-    for (f, source) in (0u32..).zip(&sheet.sources) {
-        if let Source::Plane(k) = source
-            && sheet.planes[*k as usize].1
-        {
-            steps.push(f);
-        }
-    }
+    let steps: Vec<u32> = (0..is_step.len() as u32).filter(|f| is_step[*f as usize]).collect();
     while let Some(f) = queue.pop_front() {
         for other in adjacency.neighbours(f).into_iter().flatten() {
             let same = match (sheet.sources[f as usize], sheet.sources[other as usize]) {
                 (Source::Plane(a), Source::Plane(b)) => a == b,
-                (Source::Facet(_), Source::Facet(_)) => true,
+                (Source::Facet(_), Source::Facet(_)) => !is_step[f as usize] && !is_step[other as usize],
                 _ => false,
             };
             if same && known[other as usize].is_none() {

@@ -5,7 +5,10 @@ use mesh_kernel::query::RayCaster;
 use rayon::prelude::*;
 
 use super::DeflateOptions;
+use super::faces::{Face, Faces};
+use super::report::WallPair;
 use super::segments::{SHARP, Segments};
+use super::shape::Shape;
 use super::solid::Solid;
 
 /// Facets of curved walls that lie opposite to each other may be inclined by this much, in radians: both are chords.
@@ -17,6 +20,9 @@ const PAIRED_CURVED: f64 = 0.6;
 /// Thicknesses of one part differ from one to the next by no more than this factor; what is beyond is not thickness but
 /// the part's extent.
 const THICKNESS_GAP: f64 = 2.5;
+/// Where this share of all is thinner, a smaller factor is enough: the rest is lumps and heights of ribs.
+const NEARLY_ALL: f64 = 0.9;
+const SMALL_GAP: f64 = 1.6;
 /// A thickness told from the solid is no more than this share of how far its walls reach.
 const SLENDER: f64 = 0.35;
 /// A flare meets the wall that it runs into at less than this, in radians.
@@ -58,6 +64,7 @@ pub(super) struct Pair {
 #[derive(Debug)]
 pub(super) struct Walls {
     caster: RayCaster,
+    casts: Vec<Cast>,
     /// Walls are thinner than this, in mm.
     pub(super) max_thickness: f64,
     max_draft: f64,
@@ -67,6 +74,14 @@ pub(super) struct Walls {
     pub(super) is_wall: Vec<bool>,
     /// Share of the skin that has a partner.
     pub(super) paired_share: f64,
+}
+
+/// A ray into the material from a point of a face, for a part of its area in mm².
+#[derive(Debug)]
+struct Cast {
+    face: u32,
+    area: f64,
+    hit: Option<Opposite>,
 }
 
 /// A look through the material from a point of a face.
@@ -81,17 +96,34 @@ impl Walls {
     pub(super) fn new(solid: &Solid, segments: &Segments, options: &DeflateOptions) -> Self {
         let mut walls = Self {
             caster: RayCaster::new(&solid.mesh),
+            casts: Vec::new(),
             max_thickness: f64::INFINITY,
             max_draft: options.max_draft,
             pairs: Vec::new(),
             is_wall: Vec::new(),
             paired_share: 0.0,
         };
+        let cell = solid.areas.iter().sum::<f64>() / SAMPLES;
+        let casts: Vec<Vec<Cast>> =
+            (0..solid.len()).into_par_iter().map(|f| walls.casts(solid, f, cell)).collect();
+        walls.casts = casts.into_iter().flatten().collect();
+        walls.pair(solid, segments, options);
+        walls
+    }
+
+    /// Finds walls and pairs anew for other groups. O(n log n).
+    pub(super) fn pair(&mut self, solid: &Solid, segments: &Segments, options: &DeflateOptions) {
+        let walls = self;
         let total: f64 = solid.areas.iter().sum();
-        let cell = total / SAMPLES;
-        let looks: Vec<Vec<Look>> =
-            (0..solid.len()).into_par_iter().map(|f| walls.looks(solid, segments, f, cell)).collect();
-        let mut looks: Vec<Look> = looks.into_iter().flatten().collect();
+        let look = |cast: &Cast| Look {
+            group: segments.of(cast.face),
+            area: cast.area,
+            seen: cast
+                .hit
+                .filter(|hit| walls.faces_back(solid, segments, cast.face, hit.face))
+                .map(|hit| (segments.of(hit.face), hit.distance)),
+        };
+        let mut looks: Vec<Look> = walls.casts.par_iter().map(look).collect();
         walls.max_thickness = options.max_thickness.unwrap_or_else(|| told_thickness(&looks, total));
         for look in &mut looks {
             look.seen = look.seen.filter(|(_, s)| *s <= walls.max_thickness);
@@ -128,7 +160,6 @@ impl Walls {
         // Who is no wall is nobody's partner.
         let is_wall = &walls.is_wall;
         walls.pairs.retain(|p| is_wall[p.group as usize] && is_wall[p.partner as usize]);
-        walls
     }
 
     /// The pairs that begin with a group.
@@ -142,15 +173,20 @@ impl Walls {
     pub(super) fn opposite(&self, solid: &Solid, segments: &Segments, f: u32, p: DVec3) -> Option<Opposite> {
         let inward = -solid.normals[f as usize];
         let hit = self.caster.first(p, inward, START * solid.size, self.max_thickness)?;
-        let planes = [f, hit.face].map(|f| segments.group(segments.of(f)).plane);
+        self.faces_back(solid, segments, f, hit.face)
+            .then_some(Opposite { face: hit.face, distance: hit.distance })
+    }
+
+    /// Whether a face that is seen from another one through the material faces it.
+    fn faces_back(&self, solid: &Solid, segments: &Segments, f: u32, seen: u32) -> bool {
+        let planes = [f, seen].map(|f| segments.group(segments.of(f)).plane);
         let lean = if planes.iter().all(Option::is_none) {
             FACET_LEAN
         } else {
             // Both lean by half of the draft; a curved face next to a plane one is seen through its chords.
             self.max_draft.max(SMALLEST_LEAN)
         };
-        (solid.normals[hit.face as usize].dot(inward) >= lean.cos())
-            .then_some(Opposite { face: hit.face, distance: hit.distance })
+        solid.normals[seen as usize].dot(-solid.normals[f as usize]) >= lean.cos()
     }
 
     /// The first thing met from a point in a direction, within the largest thickness.
@@ -218,31 +254,55 @@ impl Walls {
         found
     }
 
-    fn looks(&self, solid: &Solid, segments: &Segments, f: u32, cell: f64) -> Vec<Look> {
+    /// Fillets that curved walls run into: hollow faces without an exact partner, beside faces of their group that have one. What is
+    /// opposite to facets of them is so by chance.
+    pub(super) fn fillets(&self, segments: &Segments, faces: &Faces, pairs: &[WallPair]) -> Vec<Vec<u32>> {
+        let mut has_partner = vec![false; faces.list.len()];
+        pairs.iter().flat_map(|p| p.faces).for_each(|f| has_partner[f] = true);
+        let group = |face: &Face| segments.of(face.triangles[0]);
+        let mut has_wall = vec![false; segments.groups.len()];
+        for (face, has_partner) in faces.list.iter().zip(&has_partner) {
+            has_wall[group(face) as usize] |= *has_partner;
+        }
+        let is_fillet = |(face, has_partner): &(&Face, &bool)| {
+            let small = match face.shape {
+                Shape::Cylinder { radius, .. } | Shape::Sphere { radius, .. } => radius < self.max_thickness,
+                Shape::Torus { minor, .. } => minor < self.max_thickness,
+                _ => false,
+            };
+            let g = group(face);
+            !**has_partner && face.concave && small && has_wall[g as usize] && self.is_wall[g as usize]
+        };
+        faces
+            .list
+            .iter()
+            .zip(&has_partner)
+            .filter(is_fillet)
+            .map(|(face, _)| face.triangles.clone())
+            .collect()
+    }
+
+    fn casts(&self, solid: &Solid, f: u32, cell: f64) -> Vec<Cast> {
         let area = solid.areas[f as usize];
         let n = ((area / cell).sqrt().ceil() as u32).clamp(1, MOST_ROWS);
         let [a, b, c] = solid.mesh.corners(f);
         let part = area / f64::from(n * n);
-        let group = segments.of(f);
-        let look = |p: DVec3| Look {
-            group,
-            area: part,
-            seen: self.opposite(solid, segments, f, p).map(|o| (segments.of(o.face), o.distance)),
-        };
+        let cast =
+            |p: DVec3| Cast { face: f, area: part, hit: self.first(solid, p, -solid.normals[f as usize]) };
         // The middles of the n² parts that equal divisions of the sides make.
         let step = 1.0 / f64::from(n);
-        let mut looks = Vec::with_capacity((n * n) as usize);
+        let mut casts = Vec::with_capacity((n * n) as usize);
         for i in 0..n {
             for j in 0..n - i {
                 let at = |u: f64, v: f64| a + (b - a) * (u * step) + (c - a) * (v * step);
                 let (i, j) = (f64::from(i), f64::from(j));
-                looks.push(look(at(i + 1.0 / 3.0, j + 1.0 / 3.0)));
+                casts.push(cast(at(i + 1.0 / 3.0, j + 1.0 / 3.0)));
                 if j + i + 1.0 < f64::from(n) {
-                    looks.push(look(at(i + 2.0 / 3.0, j + 2.0 / 3.0)));
+                    casts.push(cast(at(i + 2.0 / 3.0, j + 2.0 / 3.0)));
                 }
             }
         }
-        looks
+        casts
     }
 }
 
@@ -261,7 +321,8 @@ fn told_thickness(looks: &[Look], area: f64) -> f64 {
     let mut sum = 0.0;
     let mut largest = 0.0;
     for (thickness, part) in seen {
-        if sum >= 0.4 * all && thickness > THICKNESS_GAP * largest {
+        let gap = if sum >= NEARLY_ALL * all { SMALL_GAP } else { THICKNESS_GAP };
+        if sum >= 0.4 * all && thickness > gap * largest {
             break;
         }
         largest = thickness;

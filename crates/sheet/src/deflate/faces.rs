@@ -1,0 +1,301 @@
+//! Faces of a skin with their geometry: what a modeller would have called a face, told from triangles (Sheen et al. 2008,
+//! sections 6.1 and 9.4).
+//!
+//! A smooth group may be many faces that run into each other: a cylinder, a sphere in the corner, another cylinder. From some facet
+//! shapes are fitted to its surroundings, grown as far as nodes lie on them, and the one that reaches farthest is a face.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::fit::Cloud;
+use super::segments::Segments;
+use super::shape::Shape;
+use super::solid::Solid;
+
+/// Nodes are on a shape within this share of the solid's size: files round.
+const ROUNDING: f64 = 3e-6;
+/// Or, where there are many, within this share of what the facets bulge by.
+const BULGE: f64 = 1e-3;
+const MANY: usize = 30;
+/// Facets fitted at first: as many as will do, or fewer where faces are narrow.
+const SURROUNDINGS: [usize; 3] = [40, 16, 7];
+/// Shapes are compared when they have grown to so many facets.
+const COMPARED: usize = 600;
+/// After so many facets in a row about which no shape fits, the rest of a group is freeform.
+const FAILURES: usize = 300;
+/// Passes over a group, at most.
+const PASSES: usize = 4;
+/// A group of which this share is freeform is so as a whole.
+const MOSTLY: f64 = 0.9;
+/// Nodes that a shape is fitted to, at most.
+const FITTED: usize = 240;
+/// A facet leans by no more than this, in radians, from the shape at its middle.
+const LEAN: f64 = 35.0 / 180.0 * std::f64::consts::PI;
+/// A less simple shape has to cover this many times more.
+const SIMPLER: f64 = 1.02;
+
+const NONE: u32 = u32::MAX;
+
+/// A face of the skin.
+#[derive(Clone, Debug)]
+pub(super) struct Face {
+    pub(super) shape: Shape,
+    /// Its triangles, ascending.
+    pub(super) triangles: Vec<u32>,
+    /// Area in mm².
+    pub(super) area: f64,
+    /// Whether the material is outside of what is round: a hole, the inner side of a bend.
+    pub(super) concave: bool,
+}
+
+/// All faces.
+#[derive(Debug)]
+pub(super) struct Faces {
+    pub(super) list: Vec<Face>,
+    /// Face of every triangle.
+    pub(super) of: Vec<u32>,
+}
+
+impl Faces {
+    /// Finds the faces of all groups. O(n log n) where faces are large beside their facets.
+    pub(super) fn new(solid: &Solid, segments: &Segments) -> Self {
+        let mut places = vec![0; solid.len() as usize];
+        for group in &segments.groups {
+            for (place, f) in (0..).zip(&group.faces) {
+                places[*f as usize] = place;
+            }
+        }
+        let mut list: Vec<Face> = (0..segments.groups.len() as u32)
+            .into_par_iter()
+            .flat_map_iter(|g| match segments.group(g).plane {
+                Some(plane) => {
+                    let shape = Shape::Plane { normal: plane.normal, offset: plane.offset };
+                    vec![face(solid, shape, segments.group(g).faces.clone())]
+                }
+                None => Growth::new(solid, segments, g, &places).faces(),
+            })
+            .collect();
+        list.sort_by_key(|f| f.triangles[0]);
+        let mut of = vec![NONE; solid.len() as usize];
+        for (k, face) in (0u32..).zip(&list) {
+            face.triangles.iter().for_each(|f| of[*f as usize] = k);
+        }
+        Self { list, of }
+    }
+}
+
+fn face(solid: &Solid, shape: Shape, mut triangles: Vec<u32>) -> Face {
+    triangles.sort_unstable();
+    let area = triangles.iter().map(|f| solid.areas[*f as usize]).sum();
+    let out = |f: &u32| {
+        shape.outward(solid.centroid(*f)).dot(solid.normals[*f as usize]) * solid.areas[*f as usize]
+    };
+    let concave = triangles.iter().map(out).sum::<f64>() < 0.0;
+    Face { shape, triangles, area, concave }
+}
+
+/// The faces of one group as they are being found.
+struct Growth<'a> {
+    solid: &'a Solid,
+    segments: &'a Segments,
+    group: u32,
+    /// Of every triangle its place in its group.
+    places: &'a [u32],
+    /// Facets by their place: whether they have a face.
+    taken: Vec<bool>,
+    /// And the last walk that came by.
+    seen: Vec<u32>,
+    walk: u32,
+}
+
+impl<'a> Growth<'a> {
+    fn new(solid: &'a Solid, segments: &'a Segments, group: u32, places: &'a [u32]) -> Self {
+        let n = segments.group(group).faces.len();
+        Self { solid, segments, group, places, taken: vec![false; n], seen: vec![0; n], walk: 0 }
+    }
+
+    fn place(&self, f: u32) -> usize {
+        self.places[f as usize] as usize
+    }
+
+    fn is_free(&self, f: u32) -> bool {
+        self.segments.of(f) == self.group && !self.taken[self.place(f)]
+    }
+
+    fn take(&mut self, shape: Shape, facets: Vec<u32>) -> Face {
+        for f in &facets {
+            let place = self.place(*f);
+            self.taken[place] = true;
+        }
+        face(self.solid, shape, facets)
+    }
+
+    fn faces(mut self) -> Vec<Face> {
+        let own = &self.segments.group(self.group).faces;
+        // Anywhere, so that large faces are met soon and no part of the group is forgotten.
+        let mut order = own.clone();
+        order.sort_by_key(|f| (f.wrapping_mul(0x9E37_79B1), *f));
+        let mut found = Vec::new();
+        // What runs into a face is seen better once that one is gone.
+        for _ in 0..PASSES {
+            let before = found.len();
+            self.pass(&order, &mut found);
+            if found.len() == before {
+                break;
+            }
+        }
+        // What has no shape is freeform, as it hangs together.
+        for seed in self.segments.group(self.group).faces.clone() {
+            if self.is_free(seed) {
+                let part = self.around(seed, usize::MAX);
+                found.push(self.take(Shape::Freeform, part));
+            }
+        }
+        // Here and there a freeform face is nearly round.
+        let freeform = found.iter().filter(|f| f.shape == Shape::Freeform).map(|f| f.area).sum::<f64>();
+        if freeform > MOSTLY * found.iter().map(|f| f.area).sum::<f64>() {
+            return vec![face(self.solid, Shape::Freeform, own.clone())];
+        }
+        found
+    }
+
+    fn pass(&mut self, order: &[u32], found: &mut Vec<Face>) {
+        let mut tried = vec![false; order.len()];
+        let mut failures = 0;
+        for &seed in order {
+            if tried[self.place(seed)] || !self.is_free(seed) {
+                continue;
+            }
+            if let Some((shape, grown)) = self.largest(seed) {
+                failures = 0;
+                found.push(self.take(shape, grown));
+                continue;
+            }
+            failures += 1;
+            if failures > FAILURES {
+                break;
+            }
+            for f in self.around(seed, SURROUNDINGS[2]) {
+                let place = self.place(f);
+                tried[place] = true;
+            }
+        }
+    }
+
+    /// The shape about a facet that reaches farthest.
+    fn largest(&mut self, seed: u32) -> Option<(Shape, Vec<u32>)> {
+        for count in SURROUNDINGS {
+            let near = self.around(seed, count);
+            let cloud = self.cloud(&near);
+            let tolerance = self.tolerance(&cloud);
+            let mut best: Option<(f64, Shape, Vec<u32>)> = None;
+            for (shape, error) in cloud.fits(tolerance) {
+                if error > tolerance || cloud.nodes.len() < least_nodes(&shape) {
+                    continue;
+                }
+                let (shape, grown) = self.grown(seed, shape, COMPARED);
+                let area: f64 = grown.iter().map(|f| self.solid.areas[*f as usize]).sum();
+                if best.as_ref().is_none_or(|b| area > SIMPLER * b.0) {
+                    best = Some((area, shape, grown));
+                }
+            }
+            if let Some((_, shape, grown)) = best {
+                let whole =
+                    if grown.len() < COMPARED { (shape, grown) } else { self.grown(seed, shape, usize::MAX) };
+                return Some(whole);
+            }
+        }
+        None
+    }
+
+    /// As far as facets lie on a shape, which is fitted again and again on the way.
+    fn grown(&mut self, seed: u32, mut shape: Shape, most: usize) -> (Shape, Vec<u32>) {
+        let near = self.around(seed, SURROUNDINGS[1]);
+        let tolerance = self.tolerance(&self.cloud(&near));
+        let mut grown = self.reached(seed, &shape, tolerance, most.min(2 * SURROUNDINGS[0]));
+        loop {
+            let cloud = self.cloud(&grown);
+            let tolerance = self.tolerance(&cloud);
+            let Some((fitted, error)) = cloud.refit(shape, tolerance) else { break };
+            if error > tolerance {
+                break;
+            }
+            shape = fitted;
+            let wider = self.reached(seed, &shape, tolerance, most.min(4 * grown.len()));
+            if wider.len() <= grown.len() {
+                break;
+            }
+            grown = wider;
+        }
+        (shape, grown)
+    }
+
+    /// The free facets about one, the nearest rings first.
+    fn around(&mut self, seed: u32, most: usize) -> Vec<u32> {
+        self.walked(seed, most, |_| true)
+    }
+
+    fn reached(&mut self, seed: u32, shape: &Shape, tolerance: f64, most: usize) -> Vec<u32> {
+        let solid = self.solid;
+        self.walked(seed, most, |f| {
+            let near = solid.mesh.corners(f).iter().all(|p| shape.distance(*p).abs() <= tolerance);
+            near && shape.outward(solid.centroid(f)).dot(solid.normals[f as usize]).abs() > LEAN.cos()
+        })
+    }
+
+    fn walked(&mut self, seed: u32, most: usize, wanted: impl Fn(u32) -> bool) -> Vec<u32> {
+        self.walk += 1;
+        let mut near = vec![seed];
+        let place = self.place(seed);
+        self.seen[place] = self.walk;
+        let mut at = 0;
+        while at < near.len() && near.len() < most {
+            for h in 3 * near[at]..3 * near[at] + 3 {
+                let other = self.solid.across(h);
+                if self.is_free(other) && self.seen[self.place(other)] != self.walk && wanted(other) {
+                    let place = self.place(other);
+                    self.seen[place] = self.walk;
+                    near.push(other);
+                }
+            }
+            at += 1;
+        }
+        near
+    }
+
+    fn tolerance(&self, cloud: &Cloud) -> f64 {
+        let rounding = ROUNDING * self.solid.size;
+        if cloud.nodes.len() < MANY { rounding } else { rounding.max(BULGE * cloud.sag()) }
+    }
+
+    /// Nodes, some of many, and facets.
+    fn cloud(&self, facets: &[u32]) -> Cloud {
+        let mesh = &self.solid.mesh;
+        let step = (facets.len() / FITTED).max(1);
+        let some = || facets.iter().step_by(step);
+        let mut corners: Vec<(u32, DVec3)> = some()
+            .flat_map(|f| mesh.faces[*f as usize].map(|v| (v, self.solid.normals[*f as usize])))
+            .collect();
+        corners.sort_by_key(|c| c.0);
+        let (mut nodes, mut node_normals) = (Vec::new(), Vec::new());
+        for run in corners.chunk_by(|a, b| a.0 == b.0) {
+            nodes.push(mesh.positions[run[0].0 as usize]);
+            node_normals.push(run.iter().map(|c| c.1).sum::<DVec3>().normalize_or_zero());
+        }
+        let facet = |f: &u32| {
+            (self.solid.centroid(*f), self.solid.normals[*f as usize], self.solid.areas[*f as usize])
+        };
+        Cloud { nodes, node_normals, facets: some().map(facet).collect() }
+    }
+}
+
+/// Fewer nodes than this are on some shape of its kind anyway.
+fn least_nodes(shape: &Shape) -> usize {
+    match shape {
+        Shape::Plane { .. } | Shape::Freeform => 4,
+        Shape::Sphere { .. } => 7,
+        Shape::Cylinder { .. } => 8,
+        Shape::Cone { .. } => 10,
+        Shape::Torus { .. } => 14,
+    }
+}

@@ -1,0 +1,296 @@
+//! Round shapes through nodes of a skin (least squares).
+//!
+//! Nodes lie on the exact face however coarsely it is meshed; facets are chords. So facets only give first guesses, and the nodes
+//! what comes of them.
+
+use faer::{Mat, Side};
+use glam::DVec3;
+
+use super::shape::Shape;
+
+/// Radii larger than this many times the extent of what is fitted are flat.
+const FLAT: f64 = 30.0;
+/// Cones are steeper than this and less steep than a right angle less this, in radians.
+const STEEP: f64 = 0.02;
+/// Steps of the least squares, and the share of the extent that derivatives are taken over.
+const STEPS: usize = 24;
+const DIFFERENCE: f64 = 1e-6;
+/// After so many steps a mean error of this many times the wanted one is not worth more of them.
+const FIRST_STEPS: usize = 5;
+const HOPELESS: f64 = 8.0;
+/// Eigenvalues smaller than this share of the largest are directions in which the shape moves within itself.
+const IDLE: f64 = 1e-11;
+
+/// What is to be fitted: nodes, and facets with their middles, unit normals and areas.
+#[derive(Debug, Default)]
+pub(super) struct Cloud {
+    pub(super) nodes: Vec<DVec3>,
+    /// Mean unit normals of the facets about every node.
+    pub(super) node_normals: Vec<DVec3>,
+    pub(super) facets: Vec<(DVec3, DVec3, f64)>,
+}
+
+/// A shape with the largest distance of a node from it, in mm.
+pub(super) type Fitted = (Shape, f64);
+
+impl Cloud {
+    /// The four round shapes that come nearest to the nodes, the simplest first; those that degenerate are left out, and those that
+    /// clearly will not come within `wanted` mm.
+    pub(super) fn fits(&self, wanted: f64) -> Vec<Fitted> {
+        let Some((centre, scale)) = self.frame() else { return Vec::new() };
+        let unit = Self {
+            nodes: self.nodes.iter().map(|p| (*p - centre) / scale).collect(),
+            node_normals: self.node_normals.clone(),
+            facets: self.facets.iter().map(|(p, n, a)| ((*p - centre) / scale, *n, *a)).collect(),
+        };
+        let guesses = [unit.cylinder(), unit.cone(), unit.sphere(), unit.torus()];
+        let shapes =
+            guesses.into_iter().flatten().map(|guess| unit.refined(guess, wanted / scale)).filter(is_round);
+        shapes.map(|s| self.with_error(placed(s, centre, scale))).collect()
+    }
+
+    /// The same kind of shape, fitted from another.
+    pub(super) fn refit(&self, shape: Shape, wanted: f64) -> Option<Fitted> {
+        let (centre, scale) = self.frame()?;
+        let unit =
+            Self { nodes: self.nodes.iter().map(|p| (*p - centre) / scale).collect(), ..Self::default() };
+        let guess = placed(shape, -centre / scale, 1.0 / scale);
+        let fitted = Some(unit.refined(guess, wanted / scale)).filter(is_round)?;
+        Some(self.with_error(placed(fitted, centre, scale)))
+    }
+
+    /// How far the nodes are from one plane, at most.
+    pub(super) fn sag(&self) -> f64 {
+        let Some((centre, _)) = self.frame() else { return 0.0 };
+        let values = eigen(3, |i, j| self.nodes.iter().map(|p| (*p - centre)[i] * (*p - centre)[j]).sum());
+        let Some((_, vectors)) = values else { return 0.0 };
+        let normal = DVec3::new(vectors[0][0], vectors[0][1], vectors[0][2]);
+        let heights = self.nodes.iter().map(|p| normal.dot(*p - centre));
+        let (low, high) = heights.fold((f64::MAX, f64::MIN), |(l, h), x| (l.min(x), h.max(x)));
+        high - low
+    }
+
+    fn with_error(&self, shape: Shape) -> Fitted {
+        (shape, self.nodes.iter().map(|p| shape.distance(*p).abs()).fold(0.0, f64::max))
+    }
+
+    fn frame(&self) -> Option<(DVec3, f64)> {
+        let n = self.nodes.len();
+        let centre = self.nodes.iter().sum::<DVec3>() / n.max(1) as f64;
+        let scale = self.nodes.iter().map(|p| p.distance(centre)).fold(0.0, f64::max);
+        (n >= 6 && scale > 0.0).then_some((centre, scale))
+    }
+
+    fn cylinder(&self) -> Option<Shape> {
+        let (_, vectors) = eigen(3, |i, j| self.facets.iter().map(|(_, n, a)| n[i] * n[j] * a).sum())?;
+        let axis = DVec3::from_slice(&vectors[0]);
+        let (x, y) = axis.any_orthonormal_pair();
+        // A circle through what is seen along the axis: |p|² = 2 c · p + k.
+        let rows = self
+            .nodes
+            .iter()
+            .map(|p| ([2.0 * p.dot(x), 2.0 * p.dot(y), 1.0], p.dot(x).powi(2) + p.dot(y).powi(2)));
+        let s = linear(rows)?;
+        let radius = (s[2] + s[0] * s[0] + s[1] * s[1]).max(0.0).sqrt();
+        Some(Shape::Cylinder { point: x * s[0] + y * s[1], axis, radius })
+    }
+
+    fn cone(&self) -> Option<Shape> {
+        let area: f64 = self.facets.iter().map(|f| f.2).sum();
+        let mean = self.facets.iter().map(|(_, n, a)| *n * *a).sum::<DVec3>() / area;
+        let spread =
+            eigen(3, |i, j| self.facets.iter().map(|(_, n, a)| (*n - mean)[i] * (*n - mean)[j] * a).sum())?;
+        let axis = DVec3::from_slice(&spread.1[0]);
+        // All tangent planes go through the tip.
+        let rows = self.facets.iter().map(|(p, n, a)| ([n.x * a, n.y * a, n.z * a], n.dot(*p) * a));
+        let apex = DVec3::from_array(linear(rows)?);
+        let into = -apex;
+        let axis = if axis.dot(into) < 0.0 { -axis } else { axis };
+        Some(Shape::Cone { apex, axis, half_angle: mean.dot(axis).abs().clamp(0.0, 1.0).asin() })
+    }
+
+    fn sphere(&self) -> Option<Shape> {
+        let rows = self.nodes.iter().map(|p| ([2.0 * p.x, 2.0 * p.y, 2.0 * p.z, 1.0], p.length_squared()));
+        let s = linear(rows)?;
+        let centre = DVec3::new(s[0], s[1], s[2]);
+        Some(Shape::Sphere { centre, radius: (s[3] + centre.length_squared()).max(0.0).sqrt() })
+    }
+
+    /// All normals of a surface of revolution meet its axis: the nearest line to that (Pottmann & Randrup 1998), and a circle through
+    /// what is seen in the half-plane beside it.
+    fn torus(&self) -> Option<Shape> {
+        let lines: Vec<[f64; 6]> = self
+            .nodes
+            .iter()
+            .zip(&self.node_normals)
+            .map(|(p, n)| {
+                let m = p.cross(*n);
+                [n.x, n.y, n.z, m.x, m.y, m.z]
+            })
+            .collect();
+        let (_, vectors) = eigen(6, |i, j| lines.iter().map(|l| l[i] * l[j]).sum())?;
+        let (moment, direction) = (DVec3::from_slice(&vectors[0][..3]), DVec3::from_slice(&vectors[0][3..]));
+        let square = direction.length_squared();
+        if square < 1e-6 {
+            return None;
+        }
+        let (axis, on_axis) = (direction / square.sqrt(), direction.cross(moment) / square);
+        let flat = |p: DVec3| {
+            let along = axis.dot(p - on_axis);
+            ((p - on_axis - axis * along).length(), along)
+        };
+        let rows = self.nodes.iter().map(|p| {
+            let (r, h) = flat(*p);
+            ([2.0 * r, 2.0 * h, 1.0], r * r + h * h)
+        });
+        let s = linear(rows)?;
+        let minor = (s[2] + s[0] * s[0] + s[1] * s[1]).max(0.0).sqrt();
+        Some(Shape::Torus { centre: on_axis + axis * s[1], axis, major: s[0], minor })
+    }
+
+    /// Levenberg and Marquardt's steps from a guess.
+    fn refined(&self, guess: Shape, wanted: f64) -> Shape {
+        let mut at = numbers(guess);
+        let error = |x: &[f64]| -> Vec<f64> {
+            let shape = shape_of(guess, x);
+            self.nodes.iter().map(|p| shape.distance(*p)).collect()
+        };
+        let square = |r: &[f64]| r.iter().map(|x| x * x).sum::<f64>();
+        let mut residual = error(&at);
+        let mut damping = 1e-3;
+        let hopeless = (HOPELESS * wanted).powi(2) * self.nodes.len() as f64;
+        for step in 0..STEPS {
+            if step >= FIRST_STEPS && square(&residual) > hopeless {
+                break;
+            }
+            let columns: Vec<Vec<f64>> = (0..at.len())
+                .map(|k| {
+                    let mut moved = at.clone();
+                    moved[k] += DIFFERENCE;
+                    let there = error(&moved);
+                    there.iter().zip(&residual).map(|(a, b)| (a - b) / DIFFERENCE).collect()
+                })
+                .collect();
+            let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            let Some((values, vectors)) = eigen(at.len(), |i, j| dot(&columns[i], &columns[j])) else {
+                break;
+            };
+            let slope: Vec<f64> = columns.iter().map(|c| dot(c, &residual)).collect();
+            let largest = values.iter().copied().fold(0.0, f64::max);
+            let mut next = at.clone();
+            for (value, vector) in values.iter().zip(&vectors).filter(|(v, _)| **v > IDLE * largest) {
+                let step = dot(vector, &slope) / (value + damping * largest * 1e-3);
+                next.iter_mut().zip(vector).for_each(|(x, v)| *x -= step * v);
+            }
+            let there = error(&next);
+            let (before, after) = (square(&residual), square(&there));
+            if after < before {
+                (at, residual, damping) = (next, there, damping / 10.0);
+                if before - after < 1e-14 * before {
+                    break;
+                }
+            } else {
+                damping *= 10.0;
+                if damping > 1e6 {
+                    break;
+                }
+            }
+        }
+        shape_of(guess, &at)
+    }
+}
+
+fn numbers(shape: Shape) -> Vec<f64> {
+    let six = |p: DVec3, a: DVec3| vec![p.x, p.y, p.z, a.x, a.y, a.z];
+    match shape {
+        Shape::Plane { normal, offset } => vec![normal.x, normal.y, normal.z, offset],
+        Shape::Cylinder { point, axis, radius } => [six(point, axis), vec![radius]].concat(),
+        Shape::Cone { apex, axis, half_angle } => [six(apex, axis), vec![half_angle]].concat(),
+        Shape::Sphere { centre, radius } => vec![centre.x, centre.y, centre.z, radius],
+        Shape::Torus { centre, axis, major, minor } => [six(centre, axis), vec![major, minor]].concat(),
+        Shape::Freeform => Vec::new(),
+    }
+}
+
+/// The shape of some numbers, of the same kind as another.
+fn shape_of(kind: Shape, x: &[f64]) -> Shape {
+    let vector = |k: usize| DVec3::new(x[k], x[k + 1], x[k + 2]);
+    match kind {
+        Shape::Plane { .. } => Shape::Plane { normal: vector(0).normalize_or_zero(), offset: x[3] },
+        Shape::Cylinder { .. } => {
+            // Of all points of the axis, the one beside the middle of what is fitted.
+            let axis = vector(3).normalize_or_zero();
+            Shape::Cylinder { point: vector(0) - axis * axis.dot(vector(0)), axis, radius: x[6] }
+        }
+        Shape::Cone { .. } => {
+            Shape::Cone { apex: vector(0), axis: vector(3).normalize_or_zero(), half_angle: x[6] }
+        }
+        Shape::Sphere { .. } => Shape::Sphere { centre: vector(0), radius: x[3] },
+        Shape::Torus { .. } => {
+            Shape::Torus { centre: vector(0), axis: vector(3).normalize_or_zero(), major: x[6], minor: x[7] }
+        }
+        Shape::Freeform => Shape::Freeform,
+    }
+}
+
+/// A shape scaled about the origin, then moved.
+fn placed(shape: Shape, by: DVec3, scale: f64) -> Shape {
+    match shape {
+        Shape::Plane { normal, offset } => Shape::Plane { normal, offset: offset * scale + normal.dot(by) },
+        Shape::Cylinder { point, axis, radius } => {
+            Shape::Cylinder { point: point * scale + by, axis, radius: radius * scale }
+        }
+        Shape::Cone { apex, axis, half_angle } => Shape::Cone { apex: apex * scale + by, axis, half_angle },
+        Shape::Sphere { centre, radius } => {
+            Shape::Sphere { centre: centre * scale + by, radius: radius * scale }
+        }
+        Shape::Torus { centre, axis, major, minor } => {
+            Shape::Torus { centre: centre * scale + by, axis, major: major * scale, minor: minor * scale }
+        }
+        Shape::Freeform => Shape::Freeform,
+    }
+}
+
+/// Whether a shape of extent one is what it is called, and not a flat or pointed limit of it.
+fn is_round(shape: &Shape) -> bool {
+    let sound = |r: f64| r > 1e-6 && r < FLAT;
+    match *shape {
+        Shape::Cylinder { radius, .. } | Shape::Sphere { radius, .. } => sound(radius),
+        Shape::Cone { half_angle, .. } => {
+            half_angle > STEEP && half_angle < std::f64::consts::FRAC_PI_2 - STEEP
+        }
+        Shape::Torus { major, minor, .. } => sound(minor) && major > 1e-3 && major < FLAT,
+        Shape::Plane { .. } | Shape::Freeform => true,
+    }
+}
+
+/// Eigenvalues of a symmetric matrix, ascending, and its eigenvectors.
+fn eigen(n: usize, entry: impl Fn(usize, usize) -> f64) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
+    let matrix = Mat::from_fn(n, n, entry);
+    let all_finite = (0..n).all(|i| (0..n).all(|j| matrix[(i, j)].is_finite()));
+    let found = matrix.self_adjoint_eigen(Side::Lower).ok().filter(|_| all_finite)?;
+    let values = (0..n).map(|k| found.S().column_vector()[k]).collect();
+    let vectors = (0..n).map(|k| (0..n).map(|i| found.U()[(i, k)]).collect()).collect();
+    Some((values, vectors))
+}
+
+/// The least squares solution of linear equations.
+fn linear<const N: usize>(rows: impl Iterator<Item = ([f64; N], f64)>) -> Option<[f64; N]> {
+    let (mut matrix, mut right) = ([[0.0; N]; N], [0.0; N]);
+    for (row, value) in rows {
+        for i in 0..N {
+            right[i] += row[i] * value;
+            for j in 0..N {
+                matrix[i][j] += row[i] * row[j];
+            }
+        }
+    }
+    let (values, vectors) = eigen(N, |i, j| matrix[i][j])?;
+    let largest = values.iter().copied().fold(0.0, f64::max);
+    let mut solution = [0.0; N];
+    for (value, vector) in values.iter().zip(&vectors).filter(|(v, _)| **v > IDLE * largest) {
+        let share: f64 = vector.iter().zip(&right).map(|(v, r)| v * r).sum::<f64>() / value;
+        solution.iter_mut().zip(vector).for_each(|(x, v)| *x += share * v);
+    }
+    Some(solution)
+}
