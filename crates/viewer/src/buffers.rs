@@ -6,7 +6,8 @@ use crate::color::Color;
 use crate::normals::corner_normals;
 use crate::scene::{Paint, Reverse, SceneMesh};
 
-/// Three corners a face, nothing shared.
+/// Corners and faces that refer to them. Faces about a node share a corner where they share its normal and colours: what
+/// is smooth and of one colour has about one corner a node, a sixth of three a face.
 ///
 /// A corner is [`MeshBuffer::STRIDE`] bytes in the machine's byte order: position (three `f32`, mm), unit normal (three
 /// `f32`), colour of the front and colour of the reverse (four bytes each, sRGB; the fourth is 255 where the colour means a
@@ -17,6 +18,8 @@ pub struct MeshBuffer {
     pub bytes: Vec<u8>,
     /// How many there are.
     pub corners: usize,
+    /// Three corners a face.
+    pub indices: Vec<u32>,
 }
 
 impl MeshBuffer {
@@ -67,10 +70,38 @@ vec3 lit(vec3 albedo, vec3 normal, vec3 to_eye, vec3 key, vec3 fill, vec3 up, bo
                     bytes
                 })
                 .collect();
-            out.bytes.extend(parts.into_iter().flatten());
+            out.share(mesh, &parts.concat());
         }
         out.corners = out.bytes.len() / Self::STRIDE;
         out
+    }
+
+    /// Takes a mesh's corners, three a face, each once.
+    fn share(&mut self, mesh: &SceneMesh, corners: &[u8]) {
+        const NONE: u32 = u32::MAX;
+        let start = self.bytes.len() / Self::STRIDE;
+        // The corners at a node as a list: the newest, and from each the one before it.
+        let mut newest = vec![NONE; mesh.positions.len()];
+        let mut before: Vec<u32> = Vec::new();
+        let nodes = mesh.faces.iter().flatten().filter(|v| (**v as usize) < newest.len());
+        let nodes: Vec<usize> = nodes.map(|v| *v as usize).collect();
+        for (corner, v) in corners.chunks_exact(Self::STRIDE).zip(nodes) {
+            let mut at = newest[v];
+            while at != NONE {
+                let from = (start + at as usize) * Self::STRIDE;
+                if self.bytes[from..from + Self::STRIDE] == *corner {
+                    break;
+                }
+                at = before[at as usize];
+            }
+            if at == NONE {
+                at = before.len() as u32;
+                before.push(newest[v]);
+                newest[v] = at;
+                self.bytes.extend_from_slice(corner);
+            }
+            self.indices.push(start as u32 + at);
+        }
     }
 }
 
@@ -99,11 +130,22 @@ mod tests {
         let corners = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
         let mesh = SceneMesh::new(corners, vec![[0, 1, 2]], Color([200, 100, 50]));
         let buffer = MeshBuffer::of(&[mesh.clone(), mesh]);
+        assert_eq!(buffer.indices, [0, 1, 2, 3, 4, 5]);
         assert_eq!((buffer.corners, buffer.bytes.len()), (6, 6 * MeshBuffer::STRIDE));
         let second = &buffer.bytes[MeshBuffer::STRIDE..2 * MeshBuffer::STRIDE];
         let number = |k: usize| f32::from_ne_bytes(second[4 * k..4 * k + 4].try_into().unwrap());
         assert_eq!([0, 1, 2, 3, 4, 5].map(number), [1.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
         assert_eq!(second[24..28], [200, 100, 50, 0]);
         assert!(second[28] < 200 && second[28] > 100, "the inside is darker");
+    }
+
+    #[test]
+    fn what_is_smooth_shares_corners_and_creases_do_not() {
+        let square = [DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y];
+        let mut mesh = SceneMesh::new(square.to_vec(), vec![[0, 1, 2], [0, 2, 3]], Color::WHITE);
+        assert_eq!(MeshBuffer::of(&[mesh.clone()]).corners, 4);
+        // Folded by a right angle along the diagonal, nothing is shared.
+        mesh.positions[3] = DVec3::new(0.5, 0.5, 0.7);
+        assert_eq!(MeshBuffer::of(&[mesh]).corners, 6);
     }
 }

@@ -25,7 +25,9 @@ impl Designer {
         self.events(ui, &response, pixel_scale);
         let pointer = response.hover_pos().filter(|_| !response.dragged_by(PointerButton::Secondary));
         let pointer = pointer.or(response.interact_pointer_pos()).map(|p| self.view.local(p));
-        if let Some(at) = pointer.filter(|_| response.hovered()) {
+        // While the eye turns nothing else is asked: every frame counts.
+        let is_turning = self.pivot.is_some();
+        if let Some(at) = pointer.filter(|_| response.hovered() && !is_turning) {
             self.hovered = self.machine.target(at, &self.world(pixel_scale));
         }
         let painter = ui.painter_at(rect);
@@ -37,7 +39,9 @@ impl Designer {
             self.ghost(&painter, &ghost);
         }
         self.legend(ui, &painter, rect);
-        self.name_elements(ui, rect);
+        if !is_turning {
+            self.name_elements(ui, rect);
+        }
     }
 
     /// Turns, moves and zooms.

@@ -411,7 +411,7 @@ impl Designer {
     }
 
     /// Takes what the workers have made and starts what is wanted.
-    fn refresh(&mut self, context: &egui::Context) {
+    pub(crate) fn refresh(&mut self, context: &egui::Context) {
         if let Some(done) = self.builder.take() {
             let is_new_body = done.body.is_some();
             if let Some(body) = done.body {

@@ -54,8 +54,8 @@ struct Order {
 
 /// Triangles of a preview: three times fewer than the eye needs at rest, and fast.
 const PREVIEW_FACES: usize = 4000;
-/// Triangles of a body whose measurements are being dragged.
-const PREVIEW_BODY: usize = 5000;
+/// Triangles of a body whose measurements are being dragged: about the fewest that a form can have.
+pub(crate) const PREVIEW_BODY: usize = 6500;
 
 #[derive(Default)]
 struct Shared {

@@ -12,6 +12,8 @@ mod canvas;
 mod designer;
 mod files;
 mod jobs;
+#[cfg(test)]
+mod measure;
 mod model;
 mod notices;
 mod panels;

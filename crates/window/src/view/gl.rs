@@ -132,9 +132,10 @@ struct Programs {
     line: glow::Program,
     mesh_array: glow::VertexArray,
     mesh_buffer: glow::Buffer,
+    index_buffer: glow::Buffer,
     line_array: glow::VertexArray,
     line_buffer: glow::Buffer,
-    mesh_corners: i32,
+    mesh_indices: i32,
     /// Vertices of lines that are drawn faint where hidden, then of those that show through, then of those that do not.
     line_runs: [i32; 3],
 }
@@ -229,6 +230,7 @@ impl GlPainter {
                 gl.delete_vertex_array(p.mesh_array);
                 gl.delete_vertex_array(p.line_array);
                 gl.delete_buffer(p.mesh_buffer);
+                gl.delete_buffer(p.index_buffer);
                 gl.delete_buffer(p.line_buffer);
             }
         }
@@ -245,6 +247,9 @@ impl Programs {
             let (mesh_array, mesh_buffer) = (gl.create_vertex_array()?, gl.create_buffer()?);
             gl.bind_vertex_array(Some(mesh_array));
             gl.bind_buffer(glow::ARRAY_BUFFER, Some(mesh_buffer));
+            let index_buffer = gl.create_buffer()?;
+            // The array remembers its indices.
+            gl.bind_buffer(glow::ELEMENT_ARRAY_BUFFER, Some(index_buffer));
             let attribute = |program, name: &str, count, kind, normalised, stride, offset| {
                 if let Some(place) = gl.get_attrib_location(program, name) {
                     gl.enable_vertex_attrib_array(place);
@@ -269,9 +274,10 @@ impl Programs {
                 line,
                 mesh_array,
                 mesh_buffer,
+                index_buffer,
                 line_array,
                 line_buffer,
-                mesh_corners: 0,
+                mesh_indices: 0,
                 line_runs: [0; 3],
             })
         }
@@ -288,7 +294,9 @@ impl Programs {
         };
         if let Some(mesh) = upload.mesh {
             fill(self.mesh_buffer, &mesh.bytes);
-            self.mesh_corners = i32::try_from(mesh.corners).unwrap_or(0);
+            let indices: Vec<u8> = mesh.indices.iter().flat_map(|k| k.to_ne_bytes()).collect();
+            fill(self.index_buffer, &indices);
+            self.mesh_indices = i32::try_from(mesh.indices.len()).unwrap_or(0);
         }
         if let Some(lines) = upload.lines {
             fill(self.line_buffer, &lines);
@@ -315,7 +323,7 @@ impl Programs {
                 gl.uniform_3_f32_slice(at(name).as_ref(), &v);
             }
             gl.bind_vertex_array(Some(self.mesh_array));
-            gl.draw_arrays(glow::TRIANGLES, 0, self.mesh_corners);
+            gl.draw_elements(glow::TRIANGLES, self.mesh_indices, glow::UNSIGNED_INT, 0);
 
             gl.enable(glow::BLEND);
             gl.depth_mask(false);

@@ -5,6 +5,7 @@
 
 mod files;
 mod from_nothing;
+mod hand;
 mod keyboard;
 mod pictures;
 mod renderer;

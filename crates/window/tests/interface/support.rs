@@ -221,3 +221,15 @@ pub(crate) fn sample(name: &str) -> Draft {
     let path = format!("{}/../../samples/{name}", env!("CARGO_MANIFEST_DIR"));
     Draft::from_bytes(&std::fs::read(path).unwrap()).unwrap()
 }
+
+impl Window {
+    /// Where one writes into the field of this name.
+    pub(crate) fn field(&self, name: &str) -> Pos2 {
+        self.harness.get_by_role_and_label(eframe::egui::Role::TextInput, name).rect().center()
+    }
+
+    /// The keyboard belongs to no field any more.
+    pub(crate) fn away(&mut self) {
+        self.key(Key::Escape);
+    }
+}
