@@ -340,10 +340,11 @@ fn path(
     }
     let label = ui.label("Path");
     let field = ui.add(egui::TextEdit::singleline(text).desired_width(f32::INFINITY)).labelled_by(label.id);
+    // Asked before the field takes the keyboard again.
+    let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
     if ui.memory(|m| m.focused().is_none()) {
         field.request_focus();
     }
-    let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
     let mut chosen = None;
     if matches!(purpose, Purpose::Open) {
         chosen = browse(ui, text, recent);

@@ -19,9 +19,9 @@ impl Designer {
         });
         egui::Panel::bottom("status").show(ui, |ui| self.status(ui));
         egui::Panel::left("outline")
-            .default_size(210.0)
+            .default_size(190.0)
             .show(ui, |ui| egui::ScrollArea::vertical().show(ui, |ui| self.outline(ui)));
-        egui::Panel::right("inspector").default_size(360.0).show(ui, |ui| {
+        egui::Panel::right("inspector").default_size(330.0).show(ui, |ui| {
             egui::Panel::top("pattern")
                 .resizable(true)
                 .default_size(300.0)

@@ -8,7 +8,10 @@ use window::Designer;
 
 /// A half skirt of two patches: nodes, edges, faces.
 pub(crate) fn half_skirt() -> Window {
-    let mut window = Window::new(Draft::empty());
+    half_skirt_in(Window::new(Draft::empty()))
+}
+
+pub(crate) fn half_skirt_in(mut window: Window) -> Window {
     window.key(Key::N);
     for name in ["centre_front_waist", "left_side_waist", "left_side_hip", "centre_front_hip"] {
         window.click(&format!("feature point {name}"));
@@ -71,7 +74,7 @@ fn a_skirt_is_drawn_built_flattened_and_exported() {
     let folder = window.folder.path().join("skirt.export");
     window.keys(Modifiers::COMMAND, Key::E);
     window.write("Path", &folder.display().to_string());
-    window.click("Export");
+    window.key(Key::Enter);
     window.wait(Designer::is_idle);
     assert!(window.message().starts_with("exported"), "{}", window.message());
     let dxf = std::fs::read_to_string(folder.join("pattern.dxf")).unwrap();
