@@ -89,8 +89,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let by_processor = words.next().as_deref() == Some("cpu");
     let text = std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/../../samples/princess-dress.json"))?;
     let mut draft = Draft::from_bytes(&text)?;
-    let mut options = FormOptions::default();
-    options.triangles = triangles;
+    let options = FormOptions { triangles, ..FormOptions::default() };
     let form = DressForm::build(&Measurements::default(), &options)?.mesh;
     let positions = form.positions.iter().map(|p| p.to_array()).collect();
     println!("a dress of 11648 triangles on a body of {}", form.faces.len());

@@ -117,8 +117,7 @@ fn how_long() {
     println!("undo: {:.2} ms", p95(20, |_| d.command(Command::Undo)));
     println!("redo: {:.2} ms", p95(20, |_| d.command(Command::Redo)));
 
-    let mut options = FormOptions::default();
-    options.triangles = 80_000;
+    let options = FormOptions { triangles: 80_000, ..FormOptions::default() };
     let form = DressForm::build(&Measurements::default(), &options).unwrap().mesh;
     let large = quartered(&form);
     d.view.solids.body = Some(Arc::new(mesh_kernel::query::RayCaster::new(&large)));

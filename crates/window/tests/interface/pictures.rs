@@ -38,7 +38,7 @@ fn a_skirt_of_two_patches_and_its_pattern() {
 #[test]
 fn a_dress_with_its_pattern() {
     let dress = sample("princess-dress.json");
-    let mut window = Window::sized([640.0, 380.0], dress, None, tempfile::tempdir().unwrap());
+    let mut window = Window::sized([620.0, 340.0], dress, None, tempfile::tempdir().unwrap());
     window.wait(window::Designer::is_built);
     window.harness.snapshot_options("dress", &options());
 }
