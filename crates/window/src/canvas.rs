@@ -107,7 +107,14 @@ impl Designer {
                         painter.circle(p, width + 2.5, color.gamma_multiply(0.4), Stroke::new(2.0, color));
                     }
                 }
-                Element::Face { .. } => area(painter, at, color),
+                Element::Face { .. } => {
+                    area(painter, at, color);
+                    if draft.template.mirrored {
+                        let twin = element.places(draft, &self.model.places);
+                        let twin: Vec<DVec3> = twin.iter().map(|p| *p * DVec3::new(-1.0, 1.0, 1.0)).collect();
+                        area(painter, self.on_screen(&twin), color.gamma_multiply(0.5));
+                    }
+                }
                 Element::Edge(_) | Element::Joint(_) => {
                     painter.add(Shape::line(at, Stroke::new(width, color)));
                 }

@@ -114,20 +114,25 @@ impl Picker<'_> {
         let ray = self.eye.ray(at);
         let seen = self.solids.first(&ray);
         let surface = seen.and_then(|s| s.garment_face).and_then(|f| self.wires.surface_of(f));
+        // A twin is picked as what it is the mirror image of.
+        let mirror = DVec3::new(-1.0, 1.0, 1.0);
+        let image = sketch::Ray { origin: ray.origin * mirror, direction: ray.direction * mirror };
+        let rays = if self.wires.twins.is_empty() { vec![ray] } else { vec![ray, image] };
         let mut found: Vec<(bool, f64, Element)> = Vec::new();
         for face in &self.wires.faces {
             let corners: Vec<DVec3> = face.nodes.iter().filter_map(|n| self.places.get(n).copied()).collect();
             let element = Element::Face { surface: face.surface.clone(), face: face.number };
             let own = surface == Some(face.surface.as_str());
-            let hit = (1..corners.len().saturating_sub(1))
-                .filter_map(|k| meets(&ray, [corners[0], corners[k], corners[k + 1]]))
-                .min_by(f64::total_cmp);
-            if let Some(distance) = hit {
+            let triangles =
+                (1..corners.len().saturating_sub(1)).map(|k| [corners[0], corners[k], corners[k + 1]]);
+            let hits = triangles.flat_map(|t| rays.iter().filter_map(move |ray| meets(ray, t)));
+            if let Some(distance) = hits.min_by(f64::total_cmp) {
                 found.push((!own, distance, element));
             } else if let (true, Some(s)) = (own, seen) {
                 // The cloth is seen beside its own flat faces: the nearest of them is meant, after all that are hit.
                 let middle = corners.iter().sum::<DVec3>() / corners.len().max(1) as f64;
-                found.push((true, 1e6 + middle.distance(s.place), element));
+                let to = if s.place.x * middle.x < 0.0 { s.place * mirror } else { s.place };
+                found.push((false, 1e6 + middle.distance(to), element));
             }
         }
         found.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));

@@ -38,6 +38,12 @@ fn clicks_select_by_kind_and_a_box_selects_many() {
     let middle = a + (b - a) * 0.5;
     window.stroke_click(middle);
     assert!(window.has("face 1 of left_front"), "{}", window.message());
+    window.key(Key::Escape);
+    assert!(!window.has("face 1 of left_front"));
+    // The twin is picked as what it mirrors.
+    let axis = window.at("node centre_front_waist").x;
+    window.stroke_click(Pos2::new(2.0 * axis - middle.x, middle.y));
+    assert!(window.has("face 1 of left_front"), "{}", window.message());
     window.key(Key::Num1);
     window.stroke(&[Pos2::new(230.0, 90.0), Pos2::new(900.0, 760.0)]);
     assert!(window.has("6 selected"), "four in front and two twins: {:?}", window.labels());
