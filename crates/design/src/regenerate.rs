@@ -1,6 +1,7 @@
 //! The pipeline: a body's features, the template rebuilt on them, the flat pattern, the report.
 
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use mesh_kernel::TriMesh;
@@ -12,7 +13,7 @@ use pattern::{
 };
 use rayon::prelude::*;
 use reference::human::{self, HumanBody, HumanError, HumanOptions};
-use template::{Garment, Reference, RegenerateOptions, Template, TemplateError};
+use template::{Garment, Prepared, Reference, RegenerateOptions, Template, TemplateError};
 use viewer::RenderError;
 
 use crate::document::Document;
@@ -162,9 +163,54 @@ pub fn regenerate_on(
     let reference = Reference { mesh: &body.mesh, features: &body.features };
     let options = RegenerateOptions { levels: settings.levels, ..RegenerateOptions::default() };
     let garment = template::regenerate(template, &reference, &options)?;
-    let construct = started.elapsed().as_secs_f64();
+    finish(template, file, body, garment, settings, started, progress)
+}
 
-    go_on("flattening")?;
+/// The same with the body's search structures at hand. Asks at every stage of the construction whether to go on.
+pub(crate) fn regenerate_prepared(
+    template: &Template,
+    file: &str,
+    body: HumanBody,
+    prepared: &Prepared,
+    settings: &Settings,
+    progress: &(dyn Fn(&str) -> bool + Sync),
+) -> Result<Regenerated, RegenerateError> {
+    let started = Instant::now();
+    let reference = Reference { mesh: &body.mesh, features: &body.features };
+    let stop = AtomicBool::new(false);
+    let listen = |_: f64, step: &str| {
+        if !progress(step) {
+            stop.store(true, Ordering::Relaxed);
+        }
+    };
+    let options = RegenerateOptions {
+        levels: settings.levels,
+        prepared: Some(prepared),
+        cancel: Some(&stop),
+        progress: Some(&listen),
+        ..RegenerateOptions::default()
+    };
+    let garment = match template::regenerate(template, &reference, &options) {
+        Err(TemplateError::Cancelled) => return Err(RegenerateError::Cancelled),
+        other => other?,
+    };
+    finish(template, file, body, garment, settings, started, progress)
+}
+
+/// From a garment to its pattern and report.
+fn finish(
+    template: &Template,
+    file: &str,
+    body: HumanBody,
+    garment: Garment,
+    settings: &Settings,
+    started: Instant,
+    progress: &(dyn Fn(&str) -> bool + Sync),
+) -> Result<Regenerated, RegenerateError> {
+    let construct = started.elapsed().as_secs_f64();
+    if !progress("flattening") {
+        return Err(RegenerateError::Cancelled);
+    }
     let started = Instant::now();
     let pattern = pattern::make(&pattern_input(&garment), &PatternOptions::default())?;
     let mut mesh = garment.body.to_tri_mesh();

@@ -238,3 +238,73 @@ fn a_mesh_as_body_has_no_measurements() {
     let edit = Edit::SetMeasure { name: "waist".into(), value: Some(70.0) };
     assert!(edit.apply(&draft).unwrap_err().to_string().contains("mesh"));
 }
+
+/// Set for the child of the test below: the folder that it saves into.
+const CHILD: &str = "TOILE_TEST_AUTOSAVE_CHILD";
+
+/// Not a test of its own: the program that is killed. It works on and on.
+#[test]
+fn a_child_that_works_until_it_is_killed() {
+    let Some(folder) = std::env::var_os(CHILD) else { return };
+    let autosave = design::draft::Autosave::start(std::path::Path::new(&folder));
+    let mut history = skirt();
+    for k in 0u32.. {
+        let ease = Some(EaseSpec { ease: f64::from(k % 300), curve: None, surfaces: Vec::new() });
+        history.apply(Command::Edit(Edit::SetEase { level: "hip".into(), ease })).unwrap();
+        autosave.changed(&history);
+        std::fs::write(std::path::Path::new(&folder).join("done"), format!("{k}")).unwrap();
+        std::thread::sleep(std::time::Duration::from_millis(50));
+    }
+}
+
+#[test]
+fn a_kill_loses_less_than_five_seconds_of_work() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut child = std::process::Command::new(std::env::current_exe().unwrap())
+        .args(["--exact", "a_child_that_works_until_it_is_killed"])
+        .env(CHILD, folder.path())
+        .stdout(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_secs(4));
+    // SIGKILL: nothing of it can clean up.
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let done: usize = std::fs::read_to_string(folder.path().join("done")).unwrap().parse().unwrap();
+    let found = design::draft::recoveries(folder.path());
+    assert_eq!(found.len(), 1, "one journal, and its program is known to be dead");
+    let kept = found[0].open().unwrap().labels().1 - skirt().labels().1;
+    // A change each 50 ms and more: five seconds are a hundred of them.
+    assert!(kept > 0 && done - kept.min(done) < 100, "{kept} of {done}");
+}
+
+#[test]
+fn edits_together_are_one_entry_and_all_or_none() {
+    let mut history = skirt();
+    let before = history.draft().to_bytes();
+    let depth = history.labels().1;
+    let ease = |ease| Some(EaseSpec { ease, curve: None, surfaces: Vec::new() });
+    let set = |level: &str, v| Edit::SetEase { level: level.to_owned(), ease: ease(v) };
+    let both = |last: Edit| Edit::Together { label: "two".to_owned(), edits: vec![set("hip", 40.0), last] };
+    let bad = both(Edit::DeleteNode { name: "nobody".to_owned() });
+    assert!(history.apply(Command::Edit(bad)).is_err());
+    assert_eq!(history.draft().to_bytes(), before);
+    history.apply(Command::Edit(both(set("waist", 50.0)))).unwrap();
+    assert_eq!((history.labels().1, history.undo_label()), (depth + 1, Some("two")));
+    assert_eq!(journal::replay(&journal::to_bytes(&history)).unwrap().draft(), history.draft());
+    history.apply(Command::Undo).unwrap();
+    assert_eq!(history.draft().to_bytes(), before);
+}
+
+#[test]
+fn the_journal_keeps_the_last_value_of_a_drag() {
+    let mut history = skirt();
+    let lines = history.journal().len();
+    for k in 0..500 {
+        let ease = Some(EaseSpec { ease: f64::from(k), curve: None, surfaces: Vec::new() });
+        let edit = Edit::SetEase { level: "hip".into(), ease };
+        history.apply(if k == 0 { Command::Edit(edit) } else { Command::Continue(edit) }).unwrap();
+    }
+    assert_eq!(history.journal().len(), lines + 2);
+    assert_eq!(journal::replay(&journal::to_bytes(&history)).unwrap().draft(), history.draft());
+}

@@ -32,6 +32,7 @@ pub use garment::{
 };
 pub use place::{SCALE_STATURE, node_frame, node_places};
 pub use regenerate::{Progress, Reference, RegenerateOptions, regenerate};
+pub use skin::Prepared;
 
 /// A template that was read, checked and written out.
 #[derive(Clone, Debug)]

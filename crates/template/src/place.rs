@@ -10,7 +10,7 @@ use crate::encoding::{Offset, decode, decode_axes, encode};
 use crate::error::TemplateError;
 use crate::format::{At, Level, NodeSpec, Scale, Slide, TemplateFile};
 use crate::layout::Layout;
-use crate::skin::Skin;
+use crate::skin::{Prepared, Skin};
 
 /// Steps in which an ease moves a node, mm.
 const PUSH_STEP: f64 = 2.0;
@@ -375,16 +375,17 @@ impl<'a> Placing<'a> {
 }
 
 /// Where the nodes of a template are on a body, twins included, before ease and collision; the template may be incomplete.
-/// O(nodes · curve points), and once O(faces log faces) for the body.
+/// `prepared` is the body's. O(nodes · curve points).
 ///
 /// # Errors
 /// [`TemplateError`]: a feature that the body lacks, curves that do not cross.
 pub fn node_places(
     file: &TemplateFile,
     reference: &Reference,
+    prepared: &Prepared,
 ) -> Result<BTreeMap<String, DVec3>, TemplateError> {
     let layout = nodes_only(file)?;
-    let skin = Skin::new(reference.mesh);
+    let skin = Skin::new(reference.mesh, prepared);
     let placing = Placing::new(&layout, reference.features, &skin, file.clearance)?;
     let placed = placing.place_all(&BTreeMap::new())?;
     Ok(layout.nodes.iter().map(|n| n.name.clone()).zip(placed.positions).collect())
@@ -394,9 +395,14 @@ pub fn node_places(
 ///
 /// # Errors
 /// As [`node_places`]; a node that is placed between others has no frame.
-pub fn node_frame(file: &TemplateFile, node: &str, reference: &Reference) -> Result<Frame, TemplateError> {
+pub fn node_frame(
+    file: &TemplateFile,
+    node: &str,
+    reference: &Reference,
+    prepared: &Prepared,
+) -> Result<Frame, TemplateError> {
     let layout = nodes_only(file)?;
-    let skin = Skin::new(reference.mesh);
+    let skin = Skin::new(reference.mesh, prepared);
     let placing = Placing::new(&layout, reference.features, &skin, file.clearance)?;
     let index = layout.nodes.iter().position(|n| n.name == node);
     let index =

@@ -6,7 +6,6 @@ use std::time::Instant;
 
 use glam::DVec3;
 use mesh_kernel::TriMesh;
-use mesh_kernel::query::Crossings;
 use reference::{FeatureCurve, Features};
 
 use crate::Template;
@@ -19,7 +18,7 @@ use crate::garment::{self, Garment, Seconds};
 use crate::layout::{Layout, LayoutLine};
 use crate::place::Placing;
 use crate::refine::{Refined, Tag};
-use crate::skin::Skin;
+use crate::skin::{Prepared, Skin};
 use crate::{adapt, complex, crowding, joints, outline, place};
 
 /// A body with its features, both in the canonical frame (millimetres, y up, facing +z).
@@ -45,6 +44,8 @@ pub struct RegenerateOptions<'a> {
     pub cancel: Option<&'a AtomicBool>,
     /// Told how far the work is (0 to 1) and what is done.
     pub progress: Option<&'a Progress<'a>>,
+    /// The body's search structures, where they are at hand; made anew else.
+    pub prepared: Option<&'a Prepared>,
 }
 
 /// An ease within this is right, mm.
@@ -158,7 +159,15 @@ pub fn regenerate(
     let mut warnings = Vec::new();
     check_reference(reference)?;
     clock.stage(0.0, "reading the body")?;
-    let skin = Skin::new(reference.mesh);
+    let made;
+    let prepared = match options.prepared {
+        Some(prepared) => prepared,
+        None => {
+            made = Prepared::new(reference.mesh);
+            &made
+        }
+    };
+    let skin = Skin::new(reference.mesh, prepared);
     seconds.prepare = clock.stage(0.1, "placing nodes")?;
 
     let placing = Placing::new(layout, reference.features, &skin, file.clearance)?;
@@ -195,7 +204,7 @@ pub fn regenerate(
     let stage = |refined| Stage::new(template, &lines, refined, &skin, options.method);
     let mut fine = stage(&refined)?;
     let mut rough = coarse_refined.as_ref().map(stage).transpose()?;
-    let crossings = Crossings::new(reference.mesh);
+    let crossings = prepared.crossings();
     seconds.factor = clock.stage(0.4, "fairing")?;
 
     let mut eases = ease_levels(layout, reference.features, &mut warnings)?;
@@ -231,7 +240,7 @@ pub fn regenerate(
         let settled = round >= rounds || step_eases(&mut eases, &faces, &positions, FINE_AIM);
         clock.stage(0.7 + 0.03 * round as f64, "fairing")?;
         if settled {
-            let more = fine.drape.push_out(&mut positions, usize::MAX, Some(&crossings))?;
+            let more = fine.drape.push_out(&mut positions, usize::MAX, Some(crossings))?;
             moved.iter_mut().zip(more).for_each(|(m, v)| *m += v);
             if fine.drape.mend(&mut positions, 0.5 * file.clearance.max(1.0)) > 0 {
                 warnings.push("some nodes inside the body had to be moved to the skin one by one".into());
@@ -239,7 +248,7 @@ pub fn regenerate(
             break (positions, moved);
         }
     };
-    let mut collision = fine.drape.report(&positions, &moved, &crossings);
+    let mut collision = fine.drape.report(&positions, &moved, crossings);
     let mut ease = BTreeMap::new();
     for (level, faces) in eases.iter().zip(&faces) {
         let Some(girth) = garment_girth(&positions, faces, level.curve) else { continue };

@@ -1,18 +1,47 @@
 //! The reference mesh as the garment meets it: distance with sign, and outward directions smooth enough to push along.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 use mesh_kernel::TriMesh;
-use mesh_kernel::query::SignedDistance;
+use mesh_kernel::query::{Crossings, SignedDistance};
 
 /// Rounds of neighbour averaging of the mesh's normals: on bodies of some 10 mm edge length this smooths over about
 /// 30 mm, more than nipples and fingers' breadths of noise, less than the turn of a shoulder.
 const NORMAL_ROUNDS: usize = 6;
 
-/// A body prepared for queries.
+/// Search structures on a body, for those who place nodes or build garments on it again and again. Cheap to clone.
+#[derive(Clone, Debug)]
+pub struct Prepared {
+    distance: Arc<SignedDistance>,
+    normals: Arc<Vec<DVec3>>,
+    crossings: Arc<Crossings>,
+}
+
+impl Prepared {
+    /// Prepares a body's mesh. O(n log n).
+    pub fn new(mesh: &TriMesh) -> Self {
+        Self {
+            distance: Arc::new(SignedDistance::new(mesh)),
+            normals: Arc::new(smooth_normals(mesh)),
+            crossings: Arc::new(Crossings::new(mesh)),
+        }
+    }
+
+    /// Distance of a place to the body's skin, mm, negative inside. About O(log n).
+    pub fn distance(&self, p: DVec3) -> f64 {
+        self.distance.signed(p).distance
+    }
+
+    pub(crate) fn crossings(&self) -> &Crossings {
+        &self.crossings
+    }
+}
+
+/// A body with what it was prepared for.
 pub(crate) struct Skin<'m> {
     mesh: &'m TriMesh,
-    distance: SignedDistance,
-    normals: Vec<DVec3>,
+    prepared: &'m Prepared,
 }
 
 /// The body as seen from one place.
@@ -27,24 +56,26 @@ pub(crate) struct Sight {
 }
 
 impl<'m> Skin<'m> {
-    pub(crate) fn new(mesh: &'m TriMesh) -> Self {
-        Self { mesh, distance: SignedDistance::new(mesh), normals: smooth_normals(mesh) }
+    /// `prepared` must be of the same mesh.
+    pub(crate) fn new(mesh: &'m TriMesh, prepared: &'m Prepared) -> Self {
+        Self { mesh, prepared }
     }
 
     /// What lies nearest to `p`.
     pub(crate) fn look(&self, p: DVec3) -> Sight {
-        let signed = self.distance.signed(p);
+        let signed = self.prepared.distance.signed(p);
         let corners = self.mesh.corners(signed.face);
         let weights = barycentric(corners, signed.point);
         let ids = self.mesh.faces[signed.face as usize];
-        let smooth: DVec3 = ids.iter().zip(weights).map(|(v, w)| w * self.normals[*v as usize]).sum();
+        let smooth: DVec3 =
+            ids.iter().zip(weights).map(|(v, w)| w * self.prepared.normals[*v as usize]).sum();
         let normal = smooth.try_normalize().unwrap_or(signed.normal);
         Sight { distance: signed.distance, point: signed.point, normal }
     }
 
     /// Signed distance only, mm.
     pub(crate) fn signed(&self, p: DVec3) -> f64 {
-        self.distance.signed(p).distance
+        self.prepared.distance.signed(p).distance
     }
 }
 

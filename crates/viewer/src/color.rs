@@ -65,6 +65,11 @@ impl Color {
         Self(oklab_to_linear(lab).map(|x| (encode(x.clamp(0.0, 1.0)) * 255.0).round() as u8))
     }
 
+    /// The same colour in less light: `share` of it, linearly.
+    pub(crate) fn dimmed(self, share: f64) -> Self {
+        Self(self.0.map(|x| (encode(decode(f64::from(x) / 255.0) * share) * 255.0).round() as u8))
+    }
+
     /// Linear light, 0 to 1 a channel.
     pub(crate) fn linear(self) -> [f32; 3] {
         self.0.map(|x| LINEAR[x as usize])

@@ -21,6 +21,7 @@
 //! # Ok::<(), viewer::RenderError>(())
 //! ```
 
+mod buffers;
 mod camera;
 mod color;
 mod color_map;
@@ -40,6 +41,7 @@ mod scene;
 mod shade;
 mod text;
 
+pub use buffers::MeshBuffer;
 pub use camera::{Camera, Lens, View};
 pub use color::{Color, cloth_color};
 pub use color_map::{ColorMap, Scale};

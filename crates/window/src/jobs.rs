@@ -1,83 +1,250 @@
-//! Building in the background: a worker with the latest draft only; what is out of date is cancelled.
+//! Work in the background: previews while something is dragged, whole builds when it is let go, files at the end.
+//!
+//! Two workers hear of every draft. Each takes the newest only; a build that is out of date stops at its next stage, a
+//! preview is short and runs to its end, so that a long drag shows something.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Mutex, PoisonError};
 
-use design::draft::{Draft, OnBody};
-use design::regenerate::{Regenerated, Settings};
+use design::draft::{BodySource, BuildError, Draft, OnBody, faces, preview};
+use design::regenerate::{RegenerateError, Regenerated, Settings};
 use eframe::egui::Context;
+use mesh_kernel::TriMesh;
+use mesh_kernel::query::RayCaster;
+use rayon::prelude::*;
 
-/// What a build came to.
-pub(crate) struct Done {
-    /// Which draft it is of.
-    pub(crate) generation: u64,
-    /// The body, where it could be made.
-    pub(crate) on: Option<Arc<OnBody>>,
-    /// The garment, nothing while the template is incomplete, or why there is none.
-    pub(crate) garment: Result<Option<Box<Regenerated>>, String>,
+/// A body, ready for everything.
+pub(crate) struct Body {
+    source: Arc<BodySource>,
+    /// Made coarsely, for the eye while a measurement is dragged.
+    is_coarse: bool,
+    pub(crate) on: OnBody,
+    pub(crate) caster: Arc<RayCaster>,
 }
 
-/// The worker's near end.
+/// A garment, ready to be shown.
+pub(crate) struct Cloth {
+    /// A group a surface.
+    pub(crate) mesh: TriMesh,
+    pub(crate) caster: Arc<RayCaster>,
+    /// With pattern and report; `None`: a preview.
+    pub(crate) made: Option<Arc<Regenerated>>,
+    /// Distance to the body a node, mm, negative inside; of whole garments only.
+    pub(crate) distances: Vec<f64>,
+}
+
+/// What a job came to.
+pub(crate) struct Done {
+    pub(crate) generation: u64,
+    pub(crate) is_whole: bool,
+    /// The body, where it could be made.
+    pub(crate) body: Option<Arc<Body>>,
+    /// The garment, nothing while the template is incomplete, or why there is none.
+    pub(crate) cloth: Result<Option<Arc<Cloth>>, String>,
+}
+
+/// A job that may be stopped.
+#[derive(Clone)]
+struct Order {
+    generation: u64,
+    draft: Arc<Draft>,
+    context: Context,
+}
+
+/// Triangles of a preview: three times fewer than the eye needs at rest, and fast.
+const PREVIEW_FACES: usize = 4000;
+/// Triangles of a body whose measurements are being dragged: about the fewest that a form can have.
+pub(crate) const PREVIEW_BODY: usize = 6500;
+
+#[derive(Default)]
+struct Shared {
+    /// The newest draft; whole builds of older ones stop.
+    newest: AtomicU64,
+    step: Mutex<String>,
+    /// The whole body that was made last, and the coarse one.
+    bodies: Mutex<[Option<Arc<Body>>; 2]>,
+}
+
+/// The workers' near end.
 pub(crate) struct Builder {
-    sender: Sender<(u64, Arc<Draft>, Context)>,
+    whole: Sender<Order>,
+    rough: Sender<Order>,
     receiver: Receiver<Done>,
-    latest: Arc<AtomicU64>,
-    /// Whether a build is under way.
-    pub(crate) busy: bool,
+    shared: Arc<Shared>,
+    /// The last result that was taken.
+    taken: u64,
+    waiting: Option<u64>,
 }
 
 impl Builder {
     pub(crate) fn start() -> Self {
-        let (sender, work) = channel::<(u64, Arc<Draft>, Context)>();
+        let shared = Arc::new(Shared::default());
         let (results, receiver) = channel();
-        let latest = Arc::new(AtomicU64::new(0));
-        let newest = Arc::clone(&latest);
-        std::thread::spawn(move || {
-            let mut kept: Option<(Arc<design::draft::BodySource>, Arc<OnBody>)> = None;
-            while let Ok((generation, draft, context)) = work.recv() {
-                let current = || newest.load(Ordering::Relaxed) == generation;
-                if !current() {
-                    continue;
-                }
-                let same =
-                    kept.as_ref().filter(|(source, _)| **source == *draft.body).map(|k| Arc::clone(&k.1));
-                let on = match same {
-                    Some(on) => Ok(on),
-                    None => draft.body.load(None).map(Arc::new),
-                };
-                let done = match on {
-                    Err(e) => Done { generation, on: None, garment: Err(e.to_string()) },
-                    Ok(on) => {
-                        kept = Some((Arc::clone(&draft.body), Arc::clone(&on)));
-                        let complete = !draft.template.surfaces.is_empty();
-                        let build = || draft.build(&on, &Settings::default(), &|_| current());
-                        let garment = complete.then(build).transpose();
-                        let garment = garment.map(|g| g.map(Box::new)).map_err(|e| e.to_string());
-                        Done { generation, on: Some(on), garment }
+        let worker = |is_whole: bool| {
+            let (sender, orders) = channel::<Order>();
+            let (shared, results) = (Arc::clone(&shared), results.clone());
+            std::thread::spawn(move || {
+                while let Ok(mut order) = orders.recv() {
+                    while let Ok(newer) = orders.try_recv() {
+                        order = newer;
                     }
-                };
-                if results.send(done).is_err() {
-                    return;
+                    if let Some(done) = shared.carry_out(&order, is_whole)
+                        && results.send(done).is_err()
+                    {
+                        return;
+                    }
+                    order.context.request_repaint();
                 }
-                context.request_repaint();
-            }
-        });
-        Self { sender, receiver, latest, busy: false }
+            });
+            sender
+        };
+        Self { whole: worker(true), rough: worker(false), receiver, shared, taken: 0, waiting: None }
     }
 
-    /// Builds this draft; an earlier build stops at its next step.
+    /// Previews this draft.
+    pub(crate) fn preview(&mut self, draft: &Arc<Draft>, context: &Context) {
+        let order = self.order(draft, context);
+        // Workers live as long as this value.
+        let _ = self.rough.send(order);
+    }
+
+    /// Builds this draft whole.
     pub(crate) fn build(&mut self, draft: &Arc<Draft>, context: &Context) {
-        let generation = self.latest.fetch_add(1, Ordering::Relaxed) + 1;
-        // The worker lives as long as this value.
-        self.busy = self.sender.send((generation, Arc::clone(draft), context.clone())).is_ok();
+        let order = self.order(draft, context);
+        self.waiting = Some(order.generation);
+        let _ = self.whole.send(order);
     }
 
-    /// The latest build, when it is ready.
+    fn order(&mut self, draft: &Arc<Draft>, context: &Context) -> Order {
+        let generation = self.shared.newest.fetch_add(1, Ordering::Relaxed) + 1;
+        Order { generation, draft: Arc::clone(draft), context: context.clone() }
+    }
+
+    /// Stops what is being built; what is shown stays.
+    pub(crate) fn cancel(&mut self) {
+        self.shared.newest.fetch_add(1, Ordering::Relaxed);
+        self.waiting = None;
+    }
+
+    /// What is being done, while something is.
+    pub(crate) fn step(&self) -> Option<String> {
+        self.waiting?;
+        Some(self.shared.step.lock().unwrap_or_else(PoisonError::into_inner).clone())
+    }
+
+    /// The newest result, when there is one that is newer than the last.
     pub(crate) fn take(&mut self) -> Option<Done> {
-        let latest = self.latest.load(Ordering::Relaxed);
-        let done = self.receiver.try_iter().filter(|d| d.generation == latest).last()?;
-        self.busy = false;
-        Some(done)
+        let taken = self.taken;
+        let newest =
+            self.receiver.try_iter().filter(|d| d.generation > taken).max_by_key(|d| d.generation)?;
+        self.taken = newest.generation;
+        if self.waiting.is_some_and(|w| w <= newest.generation) {
+            self.waiting = None;
+        }
+        Some(newest)
+    }
+}
+
+impl Shared {
+    fn carry_out(&self, order: &Order, is_whole: bool) -> Option<Done> {
+        let generation = order.generation;
+        let is_current = || self.newest.load(Ordering::Relaxed) == generation;
+        if is_whole && !is_current() {
+            return None;
+        }
+        let tell = |step: &str| {
+            if is_whole {
+                step.clone_into(&mut self.step.lock().unwrap_or_else(PoisonError::into_inner));
+                order.context.request_repaint();
+            }
+            !is_whole || is_current()
+        };
+        tell("making the body");
+        let body = match self.body(&order.draft.body, is_whole) {
+            Ok(body) => body,
+            Err(e) => return Some(Done { generation, is_whole, body: None, cloth: Err(e.to_string()) }),
+        };
+        if order.draft.template.surfaces.is_empty() {
+            return Some(Done { generation, is_whole, body: Some(body), cloth: Ok(None) });
+        }
+        let cloth = if is_whole { whole(&order.draft, &body, &tell) } else { rough(&order.draft, &body) };
+        let cloth = match cloth {
+            Err(BuildError::Regenerate(RegenerateError::Cancelled)) => return None,
+            Ok(cloth) => Ok(Some(Arc::new(cloth))),
+            Err(e) => Err(e.to_string()),
+        };
+        Some(Done { generation, is_whole, body: Some(body), cloth })
+    }
+
+    /// The body of a source: one that is at hand, or one that is made. A preview takes a whole one where there is one.
+    fn body(&self, source: &Arc<BodySource>, is_whole: bool) -> Result<Arc<Body>, BuildError> {
+        let lock = || self.bodies.lock().unwrap_or_else(PoisonError::into_inner);
+        let same = |b: &&Arc<Body>| Arc::ptr_eq(&b.source, source) || b.source == *source;
+        let at_hand = lock().iter().flatten().filter(|b| !is_whole || !b.is_coarse).find(same).cloned();
+        if let Some(body) = at_hand {
+            return Ok(body);
+        }
+        let on = source.load((!is_whole).then_some(PREVIEW_BODY))?;
+        let is_coarse = !is_whole && matches!(**source, BodySource::Form(_));
+        let caster = Arc::new(RayCaster::new(&on.body.mesh));
+        let body = Arc::new(Body { source: Arc::clone(source), is_coarse, on, caster });
+        lock()[usize::from(is_coarse)] = Some(Arc::clone(&body));
+        Ok(body)
+    }
+}
+
+/// The garment with its pattern, and what the maps show.
+fn whole(draft: &Draft, body: &Body, tell: &(dyn Fn(&str) -> bool + Sync)) -> Result<Cloth, BuildError> {
+    let made = draft.build(&body.on, &Settings::default(), tell)?;
+    tell("measuring distances");
+    let distances = made.mesh.positions.par_iter().map(|p| body.on.prepared.distance(*p)).collect();
+    let mesh = made.mesh.clone();
+    let caster = Arc::new(RayCaster::new(&mesh));
+    Ok(Cloth { mesh, caster, made: Some(Arc::new(made)), distances })
+}
+
+/// A coarse garment without pattern.
+fn rough(draft: &Draft, body: &Body) -> Result<Cloth, BuildError> {
+    let coarse: usize =
+        draft.template.surfaces.values().flat_map(faces).map(|f| f.len() - 2).sum::<usize>().max(1);
+    let coarse = if draft.template.mirrored { 2 * coarse } else { coarse };
+    let levels = (0..draft.template.level).take_while(|l| coarse << (2 * (l + 1)) <= PREVIEW_FACES).count();
+    let garment = preview(draft, &body.on, levels as u8, &AtomicBool::new(false))?;
+    let mesh = garment.body.to_tri_mesh();
+    let caster = Arc::new(RayCaster::new(&mesh));
+    Ok(Cloth { mesh, caster, made: None, distances: Vec::new() })
+}
+
+/// Work that ends in a file: named, so that the status line can tell.
+pub(crate) struct FileJob {
+    pub(crate) what: String,
+    receiver: Receiver<Result<String, String>>,
+}
+
+impl FileJob {
+    /// Runs `work` on a thread of its own; what it returns is said when it is done.
+    pub(crate) fn start(
+        what: String,
+        context: &Context,
+        work: impl FnOnce() -> Result<String, String> + Send + 'static,
+    ) -> Self {
+        let (sender, receiver) = channel();
+        let context = context.clone();
+        std::thread::spawn(move || {
+            // Nobody listens any more when the window is closed.
+            let _ = sender.send(work());
+            context.request_repaint();
+        });
+        Self { what, receiver }
+    }
+
+    /// What it came to, once.
+    pub(crate) fn take(&self) -> Option<Result<String, String>> {
+        match self.receiver.try_recv() {
+            Ok(done) => Some(done),
+            Err(std::sync::mpsc::TryRecvError::Empty) => None,
+            Err(std::sync::mpsc::TryRecvError::Disconnected) => Some(Err(format!("{} stopped", self.what))),
+        }
     }
 }

@@ -2,13 +2,30 @@
 //!
 //! [`Designer`] is the whole application; [`run`] opens it in a window of its own. All changes go through
 //! `design::draft` commands, so everything can be undone and nothing is lost.
+//!
+//! * `session`: the history, its file, the selection; `model`: what follows from the draft; `jobs`: work in the background;
+//! * `tools`: state machines from events to effects; `actions`: everything that can be done by name;
+//! * `view`: the eye, the draw list and its two painters; `canvas`, `panels`, `prompts`: what is on the screen.
 
-mod app;
+mod actions;
+mod canvas;
+mod designer;
+mod files;
 mod jobs;
+#[cfg(test)]
+mod measure;
+mod model;
+mod notices;
 mod panels;
+mod preferences;
+mod prompts;
+mod selection;
+mod session;
+mod tools;
+mod units;
 mod view;
 
-pub use app::Designer;
+pub use designer::{Designer, Start};
 
 /// Opens the window and returns when it is closed.
 ///
@@ -16,8 +33,12 @@ pub use app::Designer;
 /// What the system says when there is no display or no OpenGL.
 pub fn run(designer: Designer) -> Result<(), eframe::Error> {
     let options = eframe::NativeOptions {
-        viewport: eframe::egui::ViewportBuilder::default().with_inner_size([1280.0, 800.0]),
+        viewport: eframe::egui::ViewportBuilder::default()
+            .with_app_id("toile")
+            .with_inner_size([1280.0, 800.0])
+            .with_drag_and_drop(true),
+        depth_buffer: 24,
         ..eframe::NativeOptions::default()
     };
-    eframe::run_native("toile", options, Box::new(|_| Ok(Box::new(designer))))
+    eframe::run_native("toile", options, Box::new(|context| Ok(Box::new(designer.with_context(context)))))
 }

@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use design::draft::{BodySource, Draft, Mesh};
+use design::draft::{BodySource, Draft, Mesh, state_folder};
 
 use super::{extension, file_name, read_mesh};
 use crate::failure::Failure;
 use crate::words::View;
 
 pub(crate) fn run(words: &View) -> Result<(), Failure> {
-    let is_mesh = |path: &std::path::Path| !matches!(extension(path).as_str(), "json" | "toile" | "journal");
+    let is_mesh = |path: &std::path::Path| !matches!(extension(path).as_str(), "json" | "toile");
     let mut body = words.body.clone();
     let mut draft = Draft::empty();
     let mut file = None;
@@ -18,8 +18,9 @@ pub(crate) fn run(words: &View) -> Result<(), Failure> {
         Some(path) => {
             let bytes = std::fs::read(path)
                 .map_err(|e| Failure::new(format!("cannot read {}: {e}", path.display())))?;
-            draft = Draft::from_bytes(&bytes).map_err(|e| Failure::from(e).about(path))?;
-            file = Some(path.clone());
+            let (read, kind) = Draft::read(&bytes).map_err(|e| Failure::from(e).about(path))?;
+            draft = read;
+            file = Some((path.clone(), kind));
         }
         None => {}
     }
@@ -36,7 +37,8 @@ pub(crate) fn run(words: &View) -> Result<(), Failure> {
     if is_without_display() {
         return Err(refused("there is no display (neither DISPLAY nor WAYLAND_DISPLAY is set)".to_owned()));
     }
-    window::run(window::Designer::new(draft, file)).map_err(|e| refused(e.to_string()))
+    let start = window::Start { draft, file, state: state_folder() };
+    window::run(window::Designer::new(start)).map_err(|e| refused(e.to_string()))
 }
 
 /// Where windows need a display server, whether none is named.

@@ -49,6 +49,17 @@ impl Autosave {
         }
     }
 
+    /// Saves now, in the foreground: work that was taken over from another journal must be in this one before that one goes.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn save_now(&self, history: &History) -> std::io::Result<()> {
+        if let Some(folder) = self.path.parent() {
+            std::fs::create_dir_all(folder)?;
+        }
+        write_atomically(&self.path, &journal::to_bytes(history))
+    }
+
     /// Where it saves.
     pub fn path(&self) -> &Path {
         &self.path

@@ -5,6 +5,7 @@ use mesh_kernel::glam::DVec3;
 use reference::dress_form::{DressForm, FormOptions, Measurements};
 use reference::human::{self, HumanBody, HumanOptions};
 use serde::{Deserialize, Serialize};
+use template::Prepared;
 
 use super::{BuildError, EditError};
 
@@ -43,6 +44,8 @@ pub struct OnBody {
     pub name: String,
     /// Mesh and features.
     pub body: HumanBody,
+    /// Search structures on the mesh.
+    pub prepared: Prepared,
 }
 
 /// Measurements that a form has, by the names of `toile form`.
@@ -151,6 +154,8 @@ impl BodySource {
                 mesh.faces.clone(),
             ),
         };
-        Ok(OnBody { name: self.name(), body: human::extract(&mesh, &HumanOptions::default())? })
+        let body = human::extract(&mesh, &HumanOptions::default())?;
+        let prepared = Prepared::new(&body.mesh);
+        Ok(OnBody { name: self.name(), body, prepared })
     }
 }

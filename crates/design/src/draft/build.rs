@@ -10,7 +10,7 @@ use reference::human::{HumanBody, HumanError};
 use template::{Garment, Reference, RegenerateOptions, Template, TemplateError};
 
 use super::{Draft, OnBody};
-use crate::regenerate::{RegenerateError, Regenerated, Settings, regenerate_on};
+use crate::regenerate::{RegenerateError, Regenerated, Settings, regenerate_prepared};
 
 /// Why a draft cannot be built.
 #[derive(Debug, thiserror::Error)]
@@ -59,8 +59,12 @@ pub fn preview(draft: &Draft, on: &OnBody, levels: u8, cancel: &AtomicBool) -> R
     let template = Template::from_file(draft.template.clone())?;
     let body = with_drawn_features(draft, on);
     let reference = Reference { mesh: &body.mesh, features: &body.features };
-    let options =
-        RegenerateOptions { levels: Some(levels), cancel: Some(cancel), ..RegenerateOptions::default() };
+    let options = RegenerateOptions {
+        levels: Some(levels),
+        cancel: Some(cancel),
+        prepared: Some(&on.prepared),
+        ..RegenerateOptions::default()
+    };
     Ok(template::regenerate(&template, &reference, &options)?)
 }
 
@@ -76,6 +80,7 @@ impl Draft {
         progress: &(dyn Fn(&str) -> bool + Sync),
     ) -> Result<Regenerated, BuildError> {
         let template = Template::from_file(self.template.clone())?;
-        Ok(regenerate_on(&template, &on.name, with_drawn_features(self, on), settings, progress)?)
+        let body = with_drawn_features(self, on);
+        Ok(regenerate_prepared(&template, &on.name, body, &on.prepared, settings, progress)?)
     }
 }

@@ -65,6 +65,8 @@ pub enum Edit {
     },
     /// A measurement of the form, cm; none: derived.
     SetMeasure { name: String, value: Option<f64> },
+    /// Edits that are one to a person: a stroke over several edges. All of them or none.
+    Together { label: String, edits: Vec<Edit> },
 }
 
 impl Edit {
@@ -94,6 +96,21 @@ impl Edit {
             Self::SetTemplate { .. } => "set template".to_owned(),
             Self::SwitchBody { .. } => "switch body".to_owned(),
             Self::SetMeasure { name, .. } => format!("set {}", name.replace('_', " ")),
+            Self::Together { label, .. } => label.clone(),
+        }
+    }
+
+    /// Whether after `self` nothing is left of `earlier`: both give the same thing a value.
+    pub(super) fn overrides(&self, earlier: &Self) -> bool {
+        match (self, earlier) {
+            (Self::MoveNode { name, .. }, Self::MoveNode { name: old, .. })
+            | (Self::SetMeasure { name, .. }, Self::SetMeasure { name: old, .. }) => name == old,
+            (Self::SetEase { level, ease: Some(_) }, Self::SetEase { level: old, ease: Some(_) }) => {
+                level == old
+            }
+            (Self::EditPiece { surface, .. }, Self::EditPiece { surface: old, .. }) => surface == old,
+            (Self::SetTemplate { .. }, Self::SetTemplate { .. }) => true,
+            _ => false,
         }
     }
 
@@ -213,6 +230,11 @@ impl Edit {
                 };
                 set_measure(&mut m, name, *value)?;
                 draft.body = Arc::new(BodySource::Form(m));
+            }
+            Self::Together { edits, .. } => {
+                for edit in edits {
+                    edit.change(draft)?;
+                }
             }
         }
         Ok(())

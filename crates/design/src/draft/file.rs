@@ -10,6 +10,28 @@ use crate::document::Document;
 /// Version of the format that this program writes.
 pub const DRAFT_VERSION: u32 = 1;
 
+/// What a file is that a draft can be made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileKind {
+    /// A draft: it is written back as it was read.
+    Draft,
+    /// A design of `regenerate`: a template with the body that it was rebuilt on.
+    Design,
+    /// A template without a body.
+    Template,
+}
+
+impl FileKind {
+    /// What people call it.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Draft => "a draft",
+            Self::Design => "a rebuilt design",
+            Self::Template => "a template without a body",
+        }
+    }
+}
+
 #[derive(Serialize, Deserialize)]
 struct DraftFile {
     toile_draft: u32,
@@ -36,6 +58,14 @@ impl Draft {
     /// # Errors
     /// [`DraftFileError`]: one message for a file that is cut off, foreign, newer, or contradicts itself.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, DraftFileError> {
+        Self::read(bytes).map(|(draft, _)| draft)
+    }
+
+    /// The same, and what the file was.
+    ///
+    /// # Errors
+    /// As [`Draft::from_bytes`].
+    pub fn read(bytes: &[u8]) -> Result<(Self, FileKind), DraftFileError> {
         #[derive(Deserialize)]
         struct Head {
             toile_draft: Option<u64>,
@@ -50,13 +80,13 @@ impl Draft {
         let newer = |found: u64, known: u32| {
             if found > u64::from(known) { Err(DraftFileError::Newer { found, known }) } else { Ok(()) }
         };
-        let draft = match head {
+        let (draft, kind) = match head {
             Head { toile_draft: Some(version), .. } => {
                 newer(version, DRAFT_VERSION)?;
                 if version == 0 {
                     return Err(DraftFileError::Format("there is no format version 0".to_owned()));
                 }
-                serde_json::from_slice::<DraftFile>(bytes).map_err(wrong)?.draft
+                (serde_json::from_slice::<DraftFile>(bytes).map_err(wrong)?.draft, FileKind::Draft)
             }
             Head { toile_design: Some(version), .. } => {
                 newer(version, crate::document::DOCUMENT_VERSION)?;
@@ -66,12 +96,12 @@ impl Draft {
                     positions: design.body.positions,
                     faces: design.body.faces,
                 };
-                Self::new(design.template, BodySource::Mesh(mesh))
+                (Self::new(design.template, BodySource::Mesh(mesh)), FileKind::Design)
             }
             Head { toile_template: Some(version), .. } => {
                 newer(version, template::format::FORMAT_VERSION)?;
                 let file: TemplateFile = serde_json::from_slice(bytes).map_err(wrong)?;
-                Self::new(file, BodySource::default())
+                (Self::new(file, BodySource::default()), FileKind::Template)
             }
             _ => {
                 return Err(DraftFileError::Format(
@@ -80,7 +110,7 @@ impl Draft {
             }
         };
         draft.check()?;
-        Ok(draft)
+        Ok((draft, kind))
     }
 
     fn check(&self) -> Result<(), EditError> {

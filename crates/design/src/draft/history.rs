@@ -20,6 +20,12 @@ pub enum Command {
     Redo,
 }
 
+impl Command {
+    fn is_overridden_by(&self, edit: &Edit) -> bool {
+        matches!(self, Self::Continue(earlier) if edit.overrides(earlier))
+    }
+}
+
 /// A draft with all that it was.
 ///
 /// Drafts share their bodies; what an entry costs is a template, some tens of kilobytes. Undo and redo are O(1).
@@ -82,6 +88,12 @@ impl History {
                 let label = edit.label();
                 if self.now > 0 && self.now == self.labels.len() && self.labels[self.now - 1] == label {
                     self.states[self.now] = Arc::new(new);
+                    // A slider sends sixty values a second; the journal keeps the last, so that it stays short.
+                    let last = self.journal.last_mut();
+                    if let Some(Command::Continue(last)) = last.filter(|c| c.is_overridden_by(edit)) {
+                        *last = edit.clone();
+                        return Ok(());
+                    }
                 } else {
                     self.push(new, label);
                 }

@@ -25,7 +25,7 @@ pub use body::{BodySource, MEASURES, Mesh, OnBody, measure, set_measure};
 pub use build::{BuildError, preview, with_drawn_features};
 pub use edit::Edit;
 pub use error::{DraftFileError, EditError};
-pub use file::DRAFT_VERSION;
+pub use file::{DRAFT_VERSION, FileKind};
 pub use history::{Command, History};
 pub use topology::{edges, faces, joints};
 

@@ -21,12 +21,12 @@ fn stretch_bar() -> ColorBar {
 }
 
 /// Blue where the flat piece is smaller than the cloth on the body, red where it is larger.
-fn stretch_scale() -> Scale {
+pub fn stretch_scale() -> Scale {
     Scale::new(ColorMap::Diverging, -STRETCH_SHOWN, STRETCH_SHOWN)
 }
 
 /// The stretch of a face as one number, in percent: the singular value of the map to the plane that is farther from 1.
-fn stretch_percent([larger, smaller]: [f64; 2]) -> f64 {
+pub fn stretch_percent([larger, smaller]: [f64; 2]) -> f64 {
     100.0 * if (larger - 1.0).abs() >= (smaller - 1.0).abs() { larger - 1.0 } else { smaller - 1.0 }
 }
 

@@ -1,0 +1,468 @@
+//! Everything that can be done by name: one list feeds menus, tool bar, palette, keys, the sheet of shortcuts and tests.
+
+use design::draft::{Command, Edit};
+use eframe::egui::{self, Key, KeyboardShortcut, Modifiers};
+
+use crate::designer::{Designer, Prompt};
+use crate::files::LIBRARY;
+use crate::preferences::Theme;
+use crate::prompts::Next;
+use crate::selection::{Element, Mode};
+use crate::tools::{Drawing, Event, Tool};
+use crate::units::LengthUnit;
+use crate::view::scene::{Colouring, Section};
+
+/// Where an action stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Menu {
+    File,
+    Edit,
+    Tool,
+    Select,
+    View,
+    Window,
+}
+
+impl Menu {
+    pub(crate) const ALL: [(Self, &'static str); 6] = [
+        (Self::File, "File"),
+        (Self::Edit, "Edit"),
+        (Self::Tool, "Tool"),
+        (Self::Select, "Selection"),
+        (Self::View, "View"),
+        (Self::Window, "Window"),
+    ];
+}
+
+/// Something that can be done.
+pub(crate) struct Action {
+    pub(crate) text: String,
+    /// A sentence for those who do not know it.
+    pub(crate) hint: String,
+    pub(crate) menu: Menu,
+    pub(crate) shortcut: Option<KeyboardShortcut>,
+    /// Of things that are on or off, which.
+    pub(crate) is_on: Option<fn(&Designer, usize) -> bool>,
+    run: fn(&mut Designer, &egui::Context, usize),
+    /// Which of a row of like actions.
+    pub(crate) which: usize,
+}
+
+impl Action {
+    pub(crate) fn run(&self, designer: &mut Designer, context: &egui::Context) {
+        (self.run)(designer, context, self.which);
+    }
+
+    /// Its keys as they are printed on a keyboard; empty without.
+    pub(crate) fn keys(&self, context: &egui::Context) -> String {
+        let text = self.shortcut.map(|s| context.format_shortcut(&s)).unwrap_or_default();
+        text.replace("Questionmark", "?").replace("Period", ".")
+    }
+
+    pub(crate) fn is_on(&self, designer: &Designer) -> Option<bool> {
+        self.is_on.map(|is_on| is_on(designer, self.which))
+    }
+}
+
+/// Texts that notices offer as remedies; a test sees to it that every one is an action's.
+pub(crate) mod remedy {
+    pub(crate) const SAVE_AS: &str = "Save as …";
+    pub(crate) const FACE_TOOL: &str = "Face";
+    pub(crate) const AUTOMATIC_JOINTS: &str = "Automatic joints";
+    pub(crate) const OPEN: &str = "Open …";
+    #[cfg(test)]
+    pub(crate) const ALL: [&str; 4] = [SAVE_AS, FACE_TOOL, AUTOMATIC_JOINTS, OPEN];
+}
+
+const CTRL: Modifiers = Modifiers::COMMAND;
+const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
+const PLAIN: Modifiers = Modifiers::NONE;
+
+type Run = fn(&mut Designer, &egui::Context, usize);
+type Row = (Menu, &'static str, Option<(Modifiers, Key)>, &'static str, Run);
+type Switch = (Menu, &'static str, Option<(Modifiers, Key)>, &'static str, Run, fn(&Designer, usize) -> bool);
+
+const ROWS: &[Row] = &[
+    (Menu::File, "New", Some((CTRL, Key::N)), "An empty template on the average form", |d, _, _| {
+        d.ask(Next::New)
+    }),
+    (Menu::File, remedy::OPEN, Some((CTRL, Key::O)), "A design, a template, or a body's mesh", |d, _, _| {
+        d.prompt_open();
+    }),
+    (Menu::File, "Save", Some((CTRL, Key::S)), "Into the file that the design has", |d, _, _| d.save()),
+    (
+        Menu::File,
+        remedy::SAVE_AS,
+        Some((CTRL_SHIFT, Key::S)),
+        "Under another name: .toile holds everything, .json the template",
+        |d, _, _| {
+            d.prompt_save_as(None);
+        },
+    ),
+    (
+        Menu::File,
+        "Export files …",
+        Some((CTRL, Key::E)),
+        "Garment, pattern (DXF, SVG, PDF), pictures and report into a folder",
+        |d, _, _| {
+            d.prompt_export();
+        },
+    ),
+    (Menu::File, "Thicken …", None, "The garment as a solid of some thickness, into a file", |d, _, _| {
+        d.prompt_thicken()
+    }),
+    (Menu::File, "Quit", Some((CTRL, Key::Q)), "Close the window", |d, _, _| d.ask(Next::Quit)),
+    (Menu::Edit, "Undo", Some((CTRL, Key::Z)), "Take the last change back", |d, _, _| {
+        d.command(Command::Undo)
+    }),
+    (Menu::Edit, "Redo", Some((CTRL, Key::Y)), "Make the change again that was taken back", |d, _, _| {
+        d.command(Command::Redo);
+    }),
+    (
+        Menu::Edit,
+        "Confirm",
+        Some((PLAIN, Key::Enter)),
+        "End what the tool has under way: fill the face, join the edges",
+        |d, _, _| {
+            d.tool_event(Event::Confirm);
+        },
+    ),
+    (
+        Menu::Edit,
+        "Cancel",
+        Some((PLAIN, Key::Escape)),
+        "Leave what is under way; then select nothing",
+        |d, _, _| {
+            d.tool_event(Event::Cancel);
+        },
+    ),
+    (
+        Menu::Edit,
+        "Delete",
+        Some((PLAIN, Key::Delete)),
+        "Delete what is selected: nodes, edges, faces, profiles of edges",
+        |d, _, _| {
+            d.delete();
+        },
+    ),
+    (
+        Menu::Edit,
+        remedy::AUTOMATIC_JOINTS,
+        None,
+        "Joints make themselves wherever surfaces share edges",
+        |d, _, _| {
+            d.edit(Edit::AutomaticJoints);
+        },
+    ),
+    (Menu::Edit, "Stop building", None, "Stop what is being built in the background", |d, _, _| d.stop()),
+    (
+        Menu::Select,
+        "Select all",
+        Some((CTRL, Key::A)),
+        "Everything of the kind that clicks select",
+        |d, _, _| d.select_all(),
+    ),
+    (
+        Menu::View,
+        "Show all",
+        Some((PLAIN, Key::Home)),
+        "Move the eye so that everything is seen",
+        |d, _, _| d.frame_all(),
+    ),
+    (
+        Menu::View,
+        "Show selection",
+        Some((PLAIN, Key::Period)),
+        "Move the eye to what is selected",
+        |d, _, _| {
+            d.frame_selection();
+        },
+    ),
+    (
+        Menu::Window,
+        "Find an action",
+        Some((CTRL, Key::P)),
+        "Every action by a part of its name",
+        |d, _, _| {
+            d.palette = Some(String::new());
+        },
+    ),
+    (Menu::Window, "Keys", Some((PLAIN, Key::Questionmark)), "All keys on one sheet", |d, _, _| {
+        d.prompt = Some(Prompt::Keys);
+    }),
+];
+
+const SWITCHES: &[Switch] = &[
+    (
+        Menu::Edit,
+        "Mirror",
+        Some((PLAIN, Key::M)),
+        "The left half is drawn, and the right one follows",
+        |d, _, _| d.toggle_mirror(),
+        |d, _| d.draft().template.mirrored,
+    ),
+    (
+        Menu::View,
+        "Parallel sight",
+        Some((PLAIN, Key::O)),
+        "No perspective",
+        |d, _, _| d.view.eye.toggle_projection(),
+        |d, _| d.view.eye.is_parallel(),
+    ),
+    (
+        Menu::View,
+        "X-ray",
+        Some((PLAIN, Key::X)),
+        "See and take what is hidden",
+        |d, _, _| d.relook(|l| l.x_ray = !l.x_ray),
+        |d, _| d.look.x_ray,
+    ),
+    (
+        Menu::View,
+        "Body",
+        Some((PLAIN, Key::B)),
+        "Show the body",
+        |d, _, _| d.relook(|l| l.body = !l.body),
+        |d, _| d.look.body,
+    ),
+    (
+        Menu::View,
+        "Garment",
+        Some((PLAIN, Key::G)),
+        "Show the garment",
+        |d, _, _| d.relook(|l| l.garment = !l.garment),
+        |d, _| d.look.garment,
+    ),
+    (
+        Menu::View,
+        "Template",
+        Some((PLAIN, Key::T)),
+        "Show nodes and edges",
+        |d, _, _| d.relook(|l| l.template = !l.template),
+        |d, _| d.look.template,
+    ),
+    (
+        Menu::View,
+        "Section",
+        Some((PLAIN, Key::C)),
+        "Cut the picture with a plane",
+        |d, _, _| {
+            d.relook(|l| {
+                l.section = if l.section.is_some() { None } else { Some(Section { axis: 2, at: 0.0 }) }
+            });
+        },
+        |d, _| d.look.section.is_some(),
+    ),
+    (
+        Menu::Window,
+        "Draw without OpenGL",
+        None,
+        "By the processor: slower, right on every machine",
+        |d, _, _| d.toggle_painter(),
+        |d, _| !d.view.is_by_gl(),
+    ),
+];
+
+const VIEWS: [(viewer::View, &str, Key); 6] = [
+    (viewer::View::Front, "Front view", Key::F5),
+    (viewer::View::Back, "Back view", Key::F6),
+    (viewer::View::Left, "Left view", Key::F7),
+    (viewer::View::Right, "Right view", Key::F8),
+    (viewer::View::Top, "Top view", Key::F9),
+    (viewer::View::Iso, "View from the corner", Key::F4),
+];
+
+const MODE_KEYS: [Key; 4] = [Key::Num1, Key::Num2, Key::Num3, Key::Num4];
+
+const THEMES: [(Theme, &str); 3] =
+    [(Theme::Light, "Light window"), (Theme::Dark, "Dark window"), (Theme::System, "Window as the system")];
+
+const UNITS: [&str; 3] = ["Millimetres", "Centimetres", "Inches"];
+
+/// Every action.
+pub(crate) fn actions() -> Vec<Action> {
+    let key = |k: Option<(Modifiers, Key)>| k.map(|(m, k)| KeyboardShortcut::new(m, k));
+    let mut out = Vec::new();
+    let mut add = |menu, text: String, shortcut, hint: String, which, run: Run, is_on| {
+        out.push(Action { text, hint, menu, shortcut, is_on, run, which });
+    };
+    for (menu, text, shortcut, hint, run) in ROWS {
+        add(*menu, (*text).to_owned(), key(*shortcut), (*hint).to_owned(), 0, *run, None);
+    }
+    for (k, (name, _)) in LIBRARY.iter().enumerate() {
+        let hint = "A template that comes with the program, on the average form".to_owned();
+        add(Menu::File, format!("Template: {name}"), None, hint, k, |d, _, k| d.ask(Next::Library(k)), None);
+    }
+    for (menu, text, shortcut, hint, run, is_on) in SWITCHES {
+        add(*menu, (*text).to_owned(), key(*shortcut), (*hint).to_owned(), 0, *run, Some(*is_on));
+    }
+    for (k, (_, name, tool_key, hint)) in Tool::ALL.iter().enumerate() {
+        let shortcut = key(Some((PLAIN, *tool_key)));
+        let run: Run = |d, _, k| d.take_tool(Tool::ALL[k].0);
+        add(
+            Menu::Tool,
+            (*name).to_owned(),
+            shortcut,
+            (*hint).to_owned(),
+            k,
+            run,
+            Some(|d, k| d.tool == Tool::ALL[k].0),
+        );
+    }
+    for (k, (_, name)) in Drawing::ALL.iter().enumerate() {
+        let hint = "How the curve tool draws on the body".to_owned();
+        let run: Run = |d, _, k| {
+            d.drawing = Drawing::ALL[k].0;
+            d.take_tool(Tool::Feature);
+        };
+        add(
+            Menu::Tool,
+            format!("Curve: {name}"),
+            None,
+            hint,
+            k,
+            run,
+            Some(|d, k| d.drawing == Drawing::ALL[k].0),
+        );
+    }
+    for (k, (_, name)) in Mode::ALL.iter().enumerate() {
+        let shortcut = key(Some((PLAIN, MODE_KEYS[k])));
+        let run: Run = |d, _, k| d.take_mode(Mode::ALL[k].0);
+        let hint = "Clicks select these".to_owned();
+        let is_on: fn(&Designer, usize) -> bool = |d, k| d.session.mode == Mode::ALL[k].0;
+        add(Menu::Select, (*name).to_owned(), shortcut, hint, k, run, Some(is_on));
+    }
+    for (k, (_, name, view_key)) in VIEWS.iter().enumerate() {
+        let run: Run = |d, _, k| d.view.eye.look(VIEWS[k].0);
+        add(
+            Menu::View,
+            (*name).to_owned(),
+            key(Some((PLAIN, *view_key))),
+            "Look along an axis".to_owned(),
+            k,
+            run,
+            None,
+        );
+    }
+    for (k, (_, name)) in Colouring::ALL.iter().enumerate() {
+        let run: Run = |d, _, k| d.relook(|l| l.colouring = Colouring::ALL[k].0);
+        let hint = "What the garment's colours mean".to_owned();
+        let is_on: fn(&Designer, usize) -> bool = |d, k| d.look.colouring == Colouring::ALL[k].0;
+        add(Menu::View, format!("Colours: {name}"), None, hint, k, run, Some(is_on));
+    }
+    for (k, name) in UNITS.iter().enumerate() {
+        let run: Run = |d, _, k| d.prefer(|p| p.unit = LengthUnit::ALL[k]);
+        let is_on: fn(&Designer, usize) -> bool = |d, k| d.preferences.unit == LengthUnit::ALL[k];
+        add(Menu::Window, (*name).to_owned(), None, "The unit of lengths".to_owned(), k, run, Some(is_on));
+    }
+    for (k, (_, name)) in THEMES.iter().enumerate() {
+        let run: Run = |d, context, k| {
+            d.prefer(|p| p.theme = THEMES[k].0);
+            d.apply_theme(context);
+        };
+        let is_on: fn(&Designer, usize) -> bool = |d, k| d.preferences.theme == THEMES[k].0;
+        add(
+            Menu::Window,
+            (*name).to_owned(),
+            None,
+            "How light the window is".to_owned(),
+            k,
+            run,
+            Some(is_on),
+        );
+    }
+    out
+}
+
+impl Designer {
+    /// Runs the action of this text.
+    pub(crate) fn run_action(&mut self, text: &str, context: &egui::Context) {
+        if let Some(action) = actions().into_iter().find(|a| a.text == text) {
+            action.run(self, context);
+        }
+    }
+
+    /// Keys of actions. Those without Ctrl are text while a field has the keyboard.
+    pub(crate) fn keys(&mut self, context: &egui::Context) {
+        if self.prompt.is_some() || self.palette.is_some() {
+            return;
+        }
+        let is_typing = context.egui_wants_keyboard_input();
+        for action in actions() {
+            let Some(shortcut) = action.shortcut else { continue };
+            // Letters are text then, and these are the field's own.
+            let is_text = matches!(shortcut.logical_key, Key::A | Key::Z | Key::Y);
+            if is_typing && (!shortcut.modifiers.command || is_text) {
+                continue;
+            }
+            if context.input_mut(|i| consume(i, &shortcut)) {
+                action.run(self, context);
+            }
+        }
+    }
+
+    /// Deletes what is selected: several things are one entry of the history.
+    pub(crate) fn delete(&mut self) {
+        let draft = self.draft();
+        let on_edge = |ends: &[String; 2]| {
+            let lines = draft.template.lines.iter();
+            let own =
+                lines.filter(|(_, l)| l.through.len() == 2 && l.through.iter().all(|n| ends.contains(n)));
+            own.map(|(name, _)| name.clone()).next()
+        };
+        let mut edits = Vec::new();
+        let mut faces: Vec<(String, usize)> = Vec::new();
+        for element in &self.session.selection.elements {
+            match element {
+                Element::Node(name) => edits.push(Edit::DeleteNode { name: name.clone() }),
+                Element::Edge(ends) => edits.push(match on_edge(ends) {
+                    Some(name) => Edit::DeleteProfile { name },
+                    None => Edit::DeleteEdge { from: ends[0].clone(), to: ends[1].clone() },
+                }),
+                Element::Face { surface, face } => faces.push((surface.clone(), *face)),
+                Element::Joint(_) => {
+                    return self.problem(
+                        "joints go with the edges that surfaces share; split them in the inspector",
+                    );
+                }
+            }
+        }
+        // The last first, so that the numbers of the others stay.
+        faces.sort();
+        edits.extend(faces.into_iter().rev().map(|(surface, face)| Edit::DeleteFace { surface, face }));
+        match edits.len() {
+            0 => self.problem("nothing is selected"),
+            1 => edits.into_iter().for_each(|edit| self.edit(edit)),
+            n => self.edit(Edit::Together { label: format!("delete {n} things"), edits }),
+        }
+    }
+}
+
+/// Like `consume_shortcut`, but Shift must be up where it is not asked for; `?` is typed with Shift on most keyboards.
+fn consume(input: &mut egui::InputState, shortcut: &KeyboardShortcut) -> bool {
+    if shortcut.logical_key == Key::Questionmark {
+        return input.consume_key(Modifiers::SHIFT, Key::Questionmark)
+            || input.consume_key(PLAIN, Key::Questionmark);
+    }
+    input.modifiers.shift == shortcut.modifiers.shift && input.consume_shortcut(shortcut)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    #[test]
+    fn texts_and_keys_are_each_one_action() {
+        let all = actions();
+        let texts: BTreeSet<&str> = all.iter().map(|a| a.text.as_str()).collect();
+        assert_eq!(texts.len(), all.len());
+        let keys: Vec<String> = all.iter().filter_map(|a| a.shortcut).map(|s| format!("{s:?}")).collect();
+        assert_eq!(keys.iter().collect::<BTreeSet<_>>().len(), keys.len(), "{keys:?}");
+        assert!(all.iter().all(|a| !a.hint.is_empty()));
+        for text in remedy::ALL {
+            assert!(texts.contains(text), "{text}");
+        }
+    }
+}

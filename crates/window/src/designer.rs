@@ -1,0 +1,546 @@
+//! The application: a session, what follows from it, and the frame.
+
+use std::collections::VecDeque;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use design::draft::{Command, Draft, Edit, EditError, FileKind, History, Recovery, recoveries, state_folder};
+use design::regenerate::Regenerated;
+use eframe::egui;
+use eframe::glow;
+
+use crate::actions::remedy;
+use crate::jobs::{Body, Builder, Cloth, FileJob};
+use crate::model::Model;
+use crate::notices::{Answer, Notice, Notices};
+use crate::panels::pattern::PatternView;
+use crate::preferences::{Preferences, Theme};
+pub(crate) use crate::prompts::Prompt;
+use crate::selection::{Element, Mode};
+use crate::session::{OnDisk, Session};
+use crate::tools::{Drawing, Effect, Event, Machine, Tool, World};
+use crate::view::pick::Picker;
+use crate::view::scene::{self, Look};
+use crate::view::{GlPainter, View};
+
+/// What a window begins with.
+#[derive(Debug)]
+pub struct Start {
+    /// The design.
+    pub draft: Draft,
+    /// The file that it came from, and what that is.
+    pub file: Option<(PathBuf, FileKind)>,
+    /// Where work in progress and choices are kept.
+    pub state: PathBuf,
+}
+
+impl Start {
+    /// A design without a file, with the state where it usually is.
+    pub fn new(draft: Draft) -> Self {
+        Self { draft, file: None, state: state_folder() }
+    }
+}
+
+/// What of the latest draft is still to be made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Stale {
+    Nothing,
+    /// A preview, while something is dragged.
+    Rough,
+    Whole,
+}
+
+/// Garments of earlier drafts that are kept, for undo to show them at once.
+const KEPT: usize = 8;
+
+/// The designer.
+pub struct Designer {
+    pub(crate) session: Session,
+    pub(crate) model: Model,
+    pub(crate) view: View,
+    pub(crate) look: Look,
+    pub(crate) tool: Tool,
+    pub(crate) machine: Box<dyn Machine>,
+    pub(crate) drawing: Drawing,
+    pub(crate) notices: Notices,
+    pub(crate) preferences: Preferences,
+    pub(crate) prompt: Option<Prompt>,
+    pub(crate) palette: Option<String>,
+    pub(crate) pattern: PatternView,
+    /// The pattern made last: it stays to be seen while something is dragged.
+    pub(crate) last_made: Option<Arc<Regenerated>>,
+    /// What is under the pointer, in whichever view.
+    pub(crate) hovered: Option<Element>,
+    /// The seam under the pointer in the pattern.
+    pub(crate) hovered_seam: Option<usize>,
+    pub(crate) builder: Builder,
+    pub(crate) file_job: Option<FileJob>,
+    /// A folder to export to as soon as the garment is built.
+    pub(crate) export_to: Option<PathBuf>,
+    pub(crate) state: PathBuf,
+    pub(crate) may_close: bool,
+    /// What the eye turns about while it is turned.
+    pub(crate) pivot: Option<glam::DVec3>,
+    stale: Stale,
+    kept: VecDeque<(Arc<Draft>, Arc<Body>, Arc<Cloth>)>,
+    gl: Option<Arc<glow::Context>>,
+    is_framed: bool,
+}
+
+impl Designer {
+    /// A designer at work.
+    pub fn new(start: Start) -> Self {
+        let preferences = Preferences::load(&start.state);
+        let found = recoveries(&start.state);
+        let file = start.file.map(|(path, kind)| OnDisk { path, kind });
+        let mut designer = Self {
+            session: Session::new(History::new(start.draft), file, true, &start.state),
+            model: Model::default(),
+            view: View::new(None),
+            look: Look::default(),
+            tool: Tool::Select,
+            machine: Tool::Select.start(),
+            drawing: Drawing::default(),
+            notices: Notices::default(),
+            preferences,
+            prompt: None,
+            palette: None,
+            pattern: PatternView::default(),
+            last_made: None,
+            hovered: None,
+            hovered_seam: None,
+            builder: Builder::start(),
+            file_job: None,
+            export_to: None,
+            state: start.state,
+            may_close: false,
+            pivot: None,
+            stale: Stale::Whole,
+            kept: VecDeque::new(),
+            gl: None,
+            is_framed: false,
+        };
+        if let Some(file) = &designer.session.file {
+            let path = file.path.clone();
+            designer.prefer(|p| p.remember(&path));
+        }
+        if !found.is_empty() {
+            designer.prompt = Some(Prompt::recovery(found));
+        }
+        designer
+    }
+
+    /// Takes what the window offers: its theme, and OpenGL where there is some.
+    pub fn with_context(mut self, context: &eframe::CreationContext<'_>) -> Self {
+        self.gl = context.gl.clone();
+        if !self.preferences.software {
+            self.view.set_painter(self.gl.as_deref().and_then(GlPainter::new));
+        }
+        self.apply_theme(&context.egui_ctx);
+        self
+    }
+
+    /// The draft as it is.
+    pub fn draft(&self) -> &Draft {
+        self.session.draft()
+    }
+
+    /// Whether the garment that is shown is that of the latest draft, pattern and all.
+    pub fn is_built(&self) -> bool {
+        self.stale == Stale::Nothing
+            && self.builder.step().is_none()
+            && self.model.cloth.as_ref().is_some_and(|c| c.made.is_some())
+    }
+
+    /// Whether the body is there, and nothing is being built.
+    pub fn is_idle(&self) -> bool {
+        self.stale == Stale::Nothing
+            && self.builder.step().is_none()
+            && self.model.body.is_some()
+            && self.file_job.is_none()
+    }
+
+    /// How many pieces the pattern has that is shown.
+    pub fn pieces(&self) -> usize {
+        let made = self.model.cloth.as_ref().and_then(|c| c.made.as_ref());
+        made.map_or(0, |m| m.pattern.pieces.len())
+    }
+
+    /// The newest message.
+    pub fn message(&self) -> Option<&str> {
+        self.notices.last()
+    }
+
+    pub(crate) fn problem(&mut self, text: impl Into<String>) {
+        self.notices.push(Notice::problem(text));
+    }
+
+    pub(crate) fn command(&mut self, command: Command) {
+        let done = self.session.apply(command);
+        self.after(done, Stale::Whole);
+    }
+
+    pub(crate) fn edit(&mut self, edit: Edit) {
+        self.command(Command::Edit(edit));
+    }
+
+    /// A step of a drag that `gesture` names.
+    pub(crate) fn live(&mut self, gesture: egui::Id, edit: Edit) {
+        let done = self.session.live(gesture, edit);
+        self.after(done, Stale::Rough);
+    }
+
+    /// The drag is over.
+    pub(crate) fn settle(&mut self) {
+        if self.session.settle() {
+            self.stale = Stale::Whole;
+        }
+    }
+
+    fn after(&mut self, done: Result<(), EditError>, stale: Stale) {
+        match done {
+            Ok(()) => {
+                self.notices.forget_problems();
+                self.stale = self.stale.max(stale);
+                self.follow();
+            }
+            Err(e) => {
+                let notice = Notice::problem(e.to_string());
+                self.notices.push(match e {
+                    EditError::Used { kind: "node", name, .. } => notice.about(Element::Node(name)),
+                    EditError::Edge { from, to, .. } => {
+                        notice.with_remedy(remedy::FACE_TOOL).about(Element::edge(&from, &to))
+                    }
+                    _ => notice,
+                });
+            }
+        }
+    }
+
+    /// Brings everything that is derived up to the draft.
+    pub(crate) fn follow(&mut self) {
+        let draft = Arc::clone(self.session.draft());
+        if self.stale == Stale::Whole
+            && let Some((_, body, cloth)) = self.kept.iter().find(|(d, ..)| Arc::ptr_eq(d, &draft))
+        {
+            (self.model.body, self.model.cloth) = (Some(Arc::clone(body)), Some(Arc::clone(cloth)));
+            self.show_solids();
+            self.builder.cancel();
+            self.stale = Stale::Nothing;
+        }
+        if draft.template.surfaces.is_empty() && self.model.cloth.take().is_some() {
+            self.show_solids();
+        }
+        if let Err(e) = self.model.follow(&draft) {
+            self.problem(e);
+        }
+        self.model.find_anchors(&draft);
+        let places = &self.model.places;
+        self.session.selection.elements.retain(|e| e.is_in(&draft, places));
+        if !draft.template.surfaces.contains_key(&self.session.surface)
+            && self.session.surface.is_empty()
+            && let Some(first) = draft.template.surfaces.keys().next()
+        {
+            self.session.surface.clone_from(first);
+        }
+        self.show_lines();
+    }
+
+    /// The garments of the design before are of no use to the next.
+    pub(crate) fn forget_garments(&mut self) {
+        self.kept.clear();
+        self.builder.cancel();
+        (self.export_to, self.model.cloth, self.last_made) = (None, None, None);
+        self.stale = Stale::Whole;
+        self.is_framed = false;
+        self.follow();
+        self.show_solids();
+    }
+
+    /// Another body or garment is there.
+    fn show_solids(&mut self) {
+        self.view.solids.body = self.model.body.as_ref().map(|b| Arc::clone(&b.caster));
+        self.view.solids.garment =
+            self.model.cloth.as_ref().filter(|_| self.look.garment).map(|c| Arc::clone(&c.caster));
+        self.view.set_scene(scene::scene(&self.model, &self.look));
+    }
+
+    fn show_lines(&mut self) {
+        let (lines, points) = scene::template_lines(&self.model, &self.look);
+        self.view.set_lines(lines, points);
+    }
+
+    /// Shows things in another way.
+    pub(crate) fn relook(&mut self, change: impl FnOnce(&mut Look)) {
+        change(&mut self.look);
+        self.show_solids();
+    }
+
+    pub(crate) fn toggle_painter(&mut self) {
+        let software = self.view.is_by_gl();
+        let painter = if software { None } else { self.gl.as_deref().and_then(GlPainter::new) };
+        if !software && painter.is_none() {
+            self.problem("there is no OpenGL here that could draw the view");
+            return;
+        }
+        self.view.set_painter(painter);
+        self.prefer(|p| p.software = software);
+    }
+
+    pub(crate) fn prefer(&mut self, change: impl FnOnce(&mut Preferences)) {
+        change(&mut self.preferences);
+        self.preferences.save(&self.state);
+    }
+
+    pub(crate) fn apply_theme(&self, context: &egui::Context) {
+        context.set_theme(match self.preferences.theme {
+            Theme::System => egui::ThemePreference::System,
+            Theme::Light => egui::ThemePreference::Light,
+            Theme::Dark => egui::ThemePreference::Dark,
+        });
+    }
+
+    pub(crate) fn take_tool(&mut self, tool: Tool) {
+        self.tool = tool;
+        self.machine = tool.start();
+        self.session.selection.replace(Vec::new());
+    }
+
+    pub(crate) fn take_mode(&mut self, mode: Mode) {
+        self.session.mode = mode;
+        self.take_tool(Tool::Select);
+    }
+
+    pub(crate) fn toggle_mirror(&mut self) {
+        let t = &self.draft().template;
+        let edit = Edit::SetTemplate {
+            name: t.name.clone(),
+            clearance: t.clearance,
+            level: t.level,
+            mirrored: !t.mirrored,
+        };
+        self.edit(edit);
+    }
+
+    pub(crate) fn select_all(&mut self) {
+        let everything = glam::DVec2::splat(1e9);
+        let mode = self.session.mode;
+        let picker = Picker { x_ray: true, ..self.picker() };
+        let all = picker.within(-everything, everything, mode);
+        self.session.selection.replace(all);
+    }
+
+    pub(crate) fn frame_all(&mut self) {
+        let of = |mesh: &mesh_kernel::TriMesh| mesh.positions.clone();
+        let garment = self.model.cloth.as_ref().filter(|_| self.look.garment).map(|c| of(&c.mesh));
+        let body = self.model.body.as_ref().map(|b| of(&b.on.body.mesh));
+        if let Some(places) = garment.filter(|_| !self.look.body).or(body) {
+            self.view.eye.frame(places);
+        }
+    }
+
+    pub(crate) fn frame_selection(&mut self) {
+        let places: Vec<glam::DVec3> = self
+            .session
+            .selection
+            .elements
+            .iter()
+            .flat_map(|e| e.places(self.session.draft(), &self.model.places))
+            .collect();
+        if places.is_empty() { self.frame_all() } else { self.view.eye.frame(places) }
+    }
+
+    pub(crate) fn stop(&mut self) {
+        self.builder.cancel();
+        self.export_to = None;
+        self.notices.say("stopped; the garment shown is that of an earlier design until the next change");
+    }
+
+    pub(crate) fn picker(&self) -> Picker<'_> {
+        Picker {
+            eye: &self.view.eye,
+            solids: &self.view.solids,
+            places: &self.model.places,
+            wires: &self.model.wires,
+            x_ray: self.look.x_ray,
+        }
+    }
+
+    pub(crate) fn world(&self, pixel_scale: f64) -> World<'_> {
+        World {
+            draft: self.session.draft(),
+            model: &self.model,
+            picker: self.picker(),
+            selection: &self.session.selection,
+            mode: self.session.mode,
+            surface: &self.session.surface,
+            drawing: self.drawing,
+            pixel_scale,
+        }
+    }
+
+    /// Gives the tool an event, and does what it answers.
+    pub(crate) fn tool_event(&mut self, event: Event) {
+        self.tool_event_at(event, 1.0);
+    }
+
+    pub(crate) fn tool_event_at(&mut self, event: Event, pixel_scale: f64) {
+        let mut machine = std::mem::replace(&mut self.machine, Tool::Select.start());
+        let effects = machine.on(event, &self.world(pixel_scale));
+        self.machine = machine;
+        let gesture = egui::Id::unique("3D view drag");
+        for effect in effects {
+            match effect {
+                Effect::Edit(edit) => self.edit(edit),
+                Effect::Live(edit) => self.live(gesture, edit),
+                Effect::Settle => self.settle(),
+                Effect::Select(elements) => self.select(elements),
+                Effect::Toggle(elements) => self.session.selection.toggle(elements),
+                Effect::Problem(text) => self.problem(text),
+            }
+        }
+    }
+
+    /// Selects; the surface of a face becomes the one that new faces go to.
+    pub(crate) fn select(&mut self, elements: Vec<Element>) {
+        if let [Element::Face { surface, .. }] = &elements[..] {
+            self.session.surface.clone_from(surface);
+        }
+        self.session.selection.replace(elements);
+    }
+
+    /// Takes what the workers have made and starts what is wanted.
+    pub(crate) fn refresh(&mut self, context: &egui::Context) {
+        if let Some(done) = self.builder.take() {
+            let is_new_body = done.body.is_some();
+            if let Some(body) = done.body {
+                self.model.body = Some(body);
+            }
+            match done.cloth {
+                Ok(cloth) => {
+                    if let (true, Some(cloth), Some(body)) = (done.is_whole, &cloth, &self.model.body) {
+                        let draft = Arc::clone(self.session.draft());
+                        if self.stale == Stale::Nothing {
+                            self.kept.retain(|(d, ..)| !Arc::ptr_eq(d, &draft));
+                            self.kept.push_front((draft, Arc::clone(body), Arc::clone(cloth)));
+                            self.kept.truncate(KEPT);
+                        }
+                    }
+                    self.model.cloth = cloth;
+                }
+                Err(e) => {
+                    self.export_to = None;
+                    self.problem(e);
+                }
+            }
+            let draft = Arc::clone(self.session.draft());
+            if is_new_body && let Err(e) = self.model.follow(&draft) {
+                self.problem(e);
+            }
+            self.model.find_anchors(&draft);
+            self.show_solids();
+            if !std::mem::replace(&mut self.is_framed, true) {
+                self.frame_all();
+            }
+        }
+        match self.stale {
+            Stale::Nothing => {}
+            Stale::Rough => self.builder.preview(self.session.draft(), context),
+            Stale::Whole => self.builder.build(self.session.draft(), context),
+        }
+        self.stale = Stale::Nothing;
+        if self.is_built()
+            && let Some(folder) = self.export_to.take()
+        {
+            self.export(folder, context);
+        }
+        if let Some(done) = self.file_job.as_ref().and_then(FileJob::take) {
+            self.file_job = None;
+            match done {
+                Ok(text) => self.notices.say(text),
+                Err(text) => self.problem(text),
+            }
+        }
+    }
+}
+
+impl eframe::App for Designer {
+    fn logic(&mut self, context: &egui::Context, _frame: &mut eframe::Frame) {
+        let is_dark = context.theme() == egui::Theme::Dark;
+        if self.look.is_dark != is_dark {
+            self.look.is_dark = is_dark;
+            self.show_lines();
+        }
+        if context.input(|i| i.viewport().close_requested()) && !self.may_close && self.session.is_unsaved() {
+            context.send_viewport_cmd(egui::ViewportCommand::CancelClose);
+            self.ask(crate::prompts::Next::Quit);
+        }
+        if self.may_close {
+            context.send_viewport_cmd(egui::ViewportCommand::Close);
+        }
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        let context = ui.ctx().clone();
+        let dropped = context.input(|i| i.raw.dropped_files.first().map(|f| f.path().to_path_buf()));
+        if let Some(path) = dropped {
+            self.ask(crate::prompts::Next::Open(path));
+        }
+        self.refresh(&context);
+        self.keys(&context);
+        self.hovered_seam = None;
+        let hovered = self.hovered.take();
+        self.panels(ui);
+        egui::CentralPanel::no_frame().show(ui, |ui| self.canvas(ui));
+        if self.hovered != hovered {
+            context.request_repaint();
+        }
+        self.show_palette(&context);
+        self.show_prompt(&context);
+        match self.notices.show(&context) {
+            Some(Answer::Remedy(action)) => self.run_action(action, &context),
+            Some(Answer::Show(element)) => {
+                self.session.selection.replace(vec![element]);
+                self.frame_selection();
+            }
+            None => {}
+        }
+        if self.stale != Stale::Nothing {
+            context.request_repaint();
+        }
+        if self.builder.step().is_some() || self.file_job.is_some() {
+            // The progress bar moves.
+            context.request_repaint_after(Duration::from_millis(200));
+        }
+    }
+
+    fn on_exit(&mut self, gl: Option<&glow::Context>) {
+        if let Some(gl) = gl {
+            self.view.destroy(gl);
+        }
+    }
+}
+
+/// Work that an earlier run left, with what is known of it.
+pub(crate) fn describe(recovery: &Recovery) -> String {
+    let age =
+        std::fs::metadata(&recovery.path).and_then(|m| m.modified()).ok().and_then(|t| t.elapsed().ok());
+    let age = age.map_or_else(String::new, |a| match a.as_secs() / 60 {
+        0 => ", a moment ago".to_owned(),
+        m if m < 120 => format!(", {m} minutes ago"),
+        m if m < 48 * 60 => format!(", {} hours ago", m / 60),
+        m => format!(", {} days ago", m / (24 * 60)),
+    });
+    match recovery.open() {
+        Ok(history) => {
+            let last = history.undo_label().unwrap_or("nothing changed").to_owned();
+            format!(
+                "{}: {} changes, the last: {last}{age}",
+                history.draft().template.name,
+                history.labels().1
+            )
+        }
+        Err(e) => format!("a journal that cannot be read{age}: {e}"),
+    }
+}

@@ -1,0 +1,131 @@
+//! How long hands wait, measured and not judged:
+//! `cargo test --release -p window --lib -- --ignored --nocapture how_long`.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+use design::draft::{Command, Draft, Edit, preview};
+use design::regenerate::Settings;
+use eframe::egui;
+use glam::DVec2;
+use mesh_kernel::TriMesh;
+use reference::dress_form::{DressForm, FormOptions, Measurements};
+
+use crate::designer::{Designer, Start};
+use crate::selection::Mode;
+use crate::tools::{Event, Tool};
+
+/// The time that 95 of 100 calls stay under, ms.
+fn p95(count: usize, mut call: impl FnMut(usize)) -> f64 {
+    let mut times: Vec<f64> = (0..count)
+        .map(|k| {
+            let started = Instant::now();
+            call(k);
+            1000.0 * started.elapsed().as_secs_f64()
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    times[(count * 95 / 100).min(count - 1)]
+}
+
+fn dress() -> Draft {
+    Draft::from_bytes(crate::files::LIBRARY[0].1.as_bytes()).unwrap()
+}
+
+/// A designer whose garment is built, seen in a picture of 1280 × 800.
+fn designer(state: &std::path::Path) -> Designer {
+    let mut designer = Designer::new(Start { draft: dress(), file: None, state: state.to_owned() });
+    let context = egui::Context::default();
+    while !designer.is_built() {
+        designer.refresh(&context);
+        std::thread::sleep(std::time::Duration::from_millis(2));
+    }
+    designer.view.eye.camera.size = DVec2::new(1280.0, 800.0);
+    designer.frame_all();
+    designer
+}
+
+/// Every triangle in four.
+fn quartered(mesh: &TriMesh) -> TriMesh {
+    let mut positions = mesh.positions.clone();
+    let mut middles = std::collections::BTreeMap::new();
+    let mut faces = Vec::with_capacity(4 * mesh.faces.len());
+    for [a, b, c] in &mesh.faces {
+        let [ab, bc, ca] = [[*a, *b], [*b, *c], [*c, *a]].map(|[p, q]| {
+            *middles.entry([p.min(q), p.max(q)]).or_insert_with(|| {
+                positions.push(0.5 * (mesh.positions[p as usize] + mesh.positions[q as usize]));
+                positions.len() as u32 - 1
+            })
+        });
+        faces.extend([[*a, ab, ca], [ab, *b, bc], [ca, bc, *c], [ab, bc, ca]]);
+    }
+    TriMesh::new(positions, faces)
+}
+
+#[test]
+#[ignore = "a measurement"]
+fn how_long() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut d = designer(folder.path());
+    let draft = Arc::clone(d.session.draft());
+    let on = d.model.body.as_ref().map(|b| b.on.clone()).unwrap();
+    println!(
+        "body {} triangles, garment {}",
+        on.body.mesh.faces.len(),
+        d.model.cloth.as_ref().unwrap().mesh.faces.len()
+    );
+
+    let place = |name: &str| d.view.eye.camera.project(d.model.places[name]).unwrap();
+    let (a, b) = (place("front_hip"), place("front_thigh"));
+    d.take_tool(Tool::Sketch);
+    d.tool_event(Event::DragStart { from: a });
+    let ink = p95(200, |k| {
+        let t = k as f64 / 199.0;
+        let to = a.lerp(b, t) + DVec2::X * 6.0 * (3.0 * t).sin();
+        d.tool_event(Event::Drag { to });
+        let world = d.world(1.0);
+        std::hint::black_box(d.machine.ghosts(Some(to), &world));
+    });
+    println!("ink: a move of the pen {ink:.2} ms, and the frame");
+    let entries = d.session.history().labels().1;
+    let release = p95(1, |_| d.tool_event(Event::DragEnd { to: b, add: false }));
+    let drawn = d.session.history().labels().1 - entries;
+    println!("stroke release: profile {release:.1} ms ({drawn} entries)");
+
+    let levels = [1u8, 2, 3];
+    for level in levels {
+        let mut faces = 0;
+        let time = p95(20, |_| {
+            let made = preview(&draft, &on, level, &AtomicBool::new(false)).unwrap();
+            faces = made.body.to_tri_mesh().faces.len();
+        });
+        println!("preview of {faces} triangles: {time:.1} ms");
+    }
+    let coarse = p95(5, |_| drop(draft.body.load(Some(crate::jobs::PREVIEW_BODY)).unwrap()));
+    println!("a coarse body: {coarse:.1} ms");
+    println!("the body: {:.1} ms", p95(3, |_| drop(draft.body.load(None))));
+    let whole = p95(5, |_| drop(draft.build(&on, &Settings::default(), &|_| true)));
+    println!("whole garment with pattern: {whole:.1} ms");
+
+    let level = draft.template.ease.keys().next().unwrap().clone();
+    let ease = draft.template.ease[&level].clone();
+    for k in 0..20 {
+        let ease = Some(template::format::EaseSpec { ease: 40.0 + f64::from(k), ..ease.clone() });
+        d.command(Command::Edit(Edit::SetEase { level: level.clone(), ease }));
+    }
+    println!("undo: {:.2} ms", p95(20, |_| d.command(Command::Undo)));
+    println!("redo: {:.2} ms", p95(20, |_| d.command(Command::Redo)));
+
+    let options = FormOptions { triangles: 80_000, ..FormOptions::default() };
+    let form = DressForm::build(&Measurements::default(), &options).unwrap().mesh;
+    let large = quartered(&form);
+    d.view.solids.body = Some(Arc::new(mesh_kernel::query::RayCaster::new(&large)));
+    for (mode, name) in Mode::ALL {
+        let time = p95(2000, |k| {
+            let at = DVec2::new(300.0 + 0.34 * k as f64, 100.0 + (k * 37 % 600) as f64);
+            std::hint::black_box(d.picker().all(at, mode));
+        });
+        println!("hover pick of {name} on {} triangles: {time:.3} ms", large.faces.len());
+    }
+}

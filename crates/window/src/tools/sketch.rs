@@ -1,0 +1,205 @@
+//! Strokes that become profiles of edges.
+
+use design::draft::{Edit, edges};
+use glam::{DVec2, DVec3};
+use sketch::{
+    PickOptions, PickedEdge, Plane, ProfileOptions, SketchError, SpaceEdge, Stabiliser, Stroke,
+    bisecting_plane, fitted_plane, pick_edges, profiles,
+};
+use template::format::LineSpec;
+
+use super::{Effect, Event, Ghost, GhostShape, Machine, World};
+use crate::model::Face;
+use crate::selection::{Element, Mode};
+
+/// Template edges are chords and may run this deep under the skin that they span, mm.
+const SLACK: f64 = 60.0;
+/// The pen pulls the ink on a string of this length, points: it takes the hand's tremble.
+const STRING: f64 = 2.0;
+
+#[derive(Default)]
+pub(super) struct Sketch {
+    ink: Option<Stabiliser>,
+    pen: DVec2,
+    /// The plane of the last stroke with the edges that it meant, to be shown.
+    plane: Option<(Plane, Vec<DVec3>)>,
+}
+
+/// What a stroke means.
+struct Meaning {
+    names: Vec<[String; 2]>,
+    space: Vec<SpaceEdge>,
+    picked: Vec<PickedEdge>,
+    plane: Option<Plane>,
+}
+
+fn meaning(stroke: &Stroke, world: &World) -> Result<Meaning, SketchError> {
+    let ends = |[a, b]: &[String; 2]| Some(SpaceEdge { ends: [world.place(a)?, world.place(b)?] });
+    let known = edges(&world.draft.template).into_keys().filter_map(|names| Some((ends(&names)?, names)));
+    let (space, names): (Vec<SpaceEdge>, Vec<[String; 2]>) = known.unzip();
+    let eye = world.picker.eye;
+    let sight = world.picker.solids.seen_by(eye.is_parallel());
+    let options = PickOptions { pixel_scale: world.pixel_scale, slack: SLACK };
+    let picked = if world.picker.x_ray {
+        pick_edges(&eye.camera, stroke, &space, &sketch::Clear, &options)
+    } else {
+        pick_edges(&eye.camera, stroke, &space, &sight, &options)
+    };
+    let meant: Vec<SpaceEdge> = picked.iter().map(|p| space[p.edge]).collect();
+    let plane = match (&meant[..], picked.first()) {
+        ([one], Some(pick)) => {
+            Some(bisecting_plane(&eye.camera, one, &normals_at(&names[pick.edge], world))?)
+        }
+        ([], _) | (_, None) => None,
+        (several, _) => Some(fitted_plane(&eye.camera, several)?),
+    };
+    Ok(Meaning { names, space, picked, plane })
+}
+
+/// Normals of the template's faces at an edge.
+fn normals_at(edge: &[String; 2], world: &World) -> Vec<DVec3> {
+    let normal = |face: &Face| {
+        let p: Vec<DVec3> = face.nodes.iter().filter_map(|n| world.place(n)).collect();
+        // Newell's sum: right for faces that are not quite plane.
+        (0..p.len()).map(|k| p[k].cross(p[(k + 1) % p.len()])).sum::<DVec3>().try_normalize()
+    };
+    let has = |face: &&Face| edge.iter().all(|end| face.nodes.contains(end));
+    world.model.wires.faces.iter().filter(has).filter_map(normal).collect()
+}
+
+/// The profiles of a stroke as one edit.
+fn edit(meaning: &Meaning, stroke: &Stroke, world: &World) -> Result<Option<Edit>, SketchError> {
+    let Some(plane) = &meaning.plane else { return Ok(None) };
+    let camera = &world.picker.eye.camera;
+    let made = profiles(camera, stroke, &meaning.space, &meaning.picked, plane, &ProfileOptions::default())?;
+    let lines = &world.draft.template.lines;
+    let edits: Vec<Edit> = made
+        .into_iter()
+        .map(|profile| {
+            let nodes = meaning.names[profile.edge].clone();
+            let on_edge = |l: &&LineSpec| l.through.len() == 2 && l.through.iter().all(|n| nodes.contains(n));
+            let own = lines.iter().find(|(_, l)| on_edge(l)).map(|(name, _)| name.clone());
+            let name = own.unwrap_or_else(|| {
+                world.free_name(&format!("{}_{}", nodes[0], nodes[1]), |n| lines.contains_key(n))
+            });
+            Edit::DrawProfile { name, nodes, points: profile.points.iter().map(|p| p.to_array()).collect() }
+        })
+        .collect();
+    Ok(match edits.len() {
+        0 => None,
+        1 => edits.into_iter().next(),
+        n => Some(Edit::Together { label: format!("draw {n} profiles"), edits }),
+    })
+}
+
+impl Sketch {
+    fn stroke(&self) -> Option<Stroke> {
+        Stroke::new(self.ink.as_ref()?.points()).ok()
+    }
+}
+
+impl Machine for Sketch {
+    fn on(&mut self, event: Event, world: &World) -> Vec<Effect> {
+        match event {
+            Event::DragStart { from } => {
+                let mut ink = Stabiliser::new(STRING * world.pixel_scale);
+                ink.push(from);
+                (self.ink, self.pen, self.plane) = (Some(ink), from, None);
+                Vec::new()
+            }
+            Event::Drag { to } => {
+                self.pen = to;
+                if let Some(ink) = &mut self.ink {
+                    ink.push(to);
+                }
+                Vec::new()
+            }
+            Event::DragEnd { to, .. } => {
+                let Some(ink) = self.ink.take() else { return Vec::new() };
+                let drawn = Stroke::new(&ink.finish(to)).and_then(|stroke| {
+                    let meaning = meaning(&stroke, world)?;
+                    let edit = edit(&meaning, &stroke, world)?;
+                    let ends = meaning.picked.iter().flat_map(|p| meaning.space[p.edge].ends).collect();
+                    Ok((edit, meaning.plane.map(|plane| (plane, ends))))
+                });
+                match drawn {
+                    Ok((Some(edit), plane)) => {
+                        self.plane = plane;
+                        vec![Effect::Edit(edit)]
+                    }
+                    Ok((None, _)) => vec![Effect::Problem(
+                        "the stroke is near both ends of no visible edge; draw from node to node along an edge of a \
+                         face"
+                            .to_owned(),
+                    )],
+                    Err(e) => vec![Effect::Problem(e.to_string())],
+                }
+            }
+            Event::Click { at, add } => {
+                let edge = world.picker.all(at, Mode::Edges).into_iter().take(1).collect();
+                vec![if add { Effect::Toggle(edge) } else { Effect::Select(edge) }]
+            }
+            Event::Cancel if self.ink.is_some() || self.plane.is_some() => {
+                (self.ink, self.plane) = (None, None);
+                Vec::new()
+            }
+            Event::Cancel => vec![Effect::Select(Vec::new())],
+            Event::Confirm => Vec::new(),
+        }
+    }
+
+    fn ghosts(&self, _: Option<DVec2>, world: &World) -> Vec<Ghost> {
+        let mut out = Vec::new();
+        let mut shown = self.plane.clone();
+        if let Some(stroke) = self.stroke() {
+            if let Ok(meaning) = meaning(&stroke, world) {
+                for pick in &meaning.picked {
+                    out.push(Ghost::legal(GhostShape::Line(meaning.space[pick.edge].ends.to_vec())));
+                }
+                let ends = meaning.picked.iter().flat_map(|p| meaning.space[p.edge].ends).collect();
+                shown = meaning.plane.map(|plane| (plane, ends));
+            }
+            let mut ink = stroke.points().to_vec();
+            // The ink is never behind the pen.
+            ink.push(self.pen);
+            out.push(Ghost::legal(GhostShape::Ink(ink)));
+        }
+        if let Some((plane, ends)) = shown {
+            out.push(Ghost::legal(GhostShape::Area(rectangle(&plane, &ends, world))));
+        }
+        out
+    }
+
+    fn next_step(&self, _: &World) -> String {
+        if self.ink.is_some() {
+            return "draw on to the next node; the shaded plane is the one that the stroke goes on"
+                .to_owned();
+        }
+        "draw from node to node over edges of faces; draw again to change a profile; Delete takes that of the chosen edge"
+            .to_owned()
+    }
+
+    fn target(&self, at: DVec2, world: &World) -> Option<Element> {
+        match self.ink {
+            Some(_) => None,
+            None => world.picker.all(at, Mode::Edges).into_iter().next(),
+        }
+    }
+}
+
+/// A part of the plane about the edges.
+fn rectangle(plane: &Plane, ends: &[DVec3], world: &World) -> Vec<DVec3> {
+    let up = world.picker.eye.camera.up;
+    let up = (up - plane.normal * up.dot(plane.normal)).normalize_or(DVec3::Y);
+    let right = up.cross(plane.normal);
+    let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    for p in ends {
+        let at = DVec2::new((*p - plane.point).dot(right), (*p - plane.point).dot(up));
+        (low, high) = (low.min(at), high.max(at));
+    }
+    let air = 0.25 * (high - low).max_element();
+    let (low, high) = (low - air, high + air);
+    [(low.x, low.y), (high.x, low.y), (high.x, high.y), (low.x, high.y)]
+        .map(|(x, y)| plane.point + right * x + up * y)
+        .to_vec()
+}

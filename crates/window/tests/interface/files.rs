@@ -1,0 +1,129 @@
+//! Files: opened whole or not at all, saved as what they are, and work that survives.
+
+use std::path::{Path, PathBuf};
+
+use design::draft::{Draft, FileKind, History, journal};
+use eframe::egui::{Key, Modifiers};
+use window::Designer;
+
+use crate::from_nothing::half_skirt;
+use crate::support::Window;
+
+fn drop_file(window: &mut Window, path: &Path) {
+    window.drop_on(path);
+    window.steps();
+}
+
+#[test]
+fn bad_files_are_one_message_and_change_nothing() {
+    let mut window = half_skirt();
+    window.wait(Designer::is_built);
+    window.keys(Modifiers::COMMAND, Key::S);
+    let own = window.folder.path().join("own.toile");
+    window.write("Path", &own.display().to_string());
+    window.click("Save");
+    assert!(own.is_file(), "{}", window.message());
+    let bytes = window.draft().to_bytes();
+    let text = String::from_utf8(bytes.clone()).unwrap();
+    let newer = text.replace("\"toile_draft\":1", "\"toile_draft\":9");
+    let cases: [(&str, &[u8]); 7] = [
+        ("cut.toile", &bytes[..bytes.len() / 2]),
+        ("newer.toile", newer.as_bytes()),
+        ("foreign.json", b"{\"type\": \"FeatureCollection\"}"),
+        ("empty.toile", b""),
+        ("noise.toile", &[0xff, 0x00, 0x13, 0x37]),
+        ("broken.obj", b"v 1 2\nf 1 2 3\n"),
+        ("cut.journal", &bytes[..40]),
+    ];
+    for (name, content) in cases {
+        let path = window.folder.path().join(name);
+        std::fs::write(&path, content).unwrap();
+        drop_file(&mut window, &path);
+        assert!(window.message().contains("was not opened"), "{name}: {}", window.message());
+        assert_eq!(window.draft().to_bytes(), bytes, "{name}");
+    }
+    drop_file(&mut window, &PathBuf::from("/nowhere/at/all.toile"));
+    assert!(window.message().contains("was not opened"), "{}", window.message());
+}
+
+#[test]
+fn a_draft_is_saved_in_its_place_and_a_template_asks() {
+    let folder = tempfile::tempdir().unwrap();
+    let template = format!("{}/../../samples/fitted-bodice.json", env!("CARGO_MANIFEST_DIR"));
+    let copy = folder.path().join("bodice.json");
+    std::fs::copy(&template, &copy).unwrap();
+    let (draft, kind) = Draft::read(&std::fs::read(&copy).unwrap()).unwrap();
+    assert_eq!(kind, FileKind::Template);
+    let mut window = Window::open(draft, Some((copy.clone(), kind)), folder);
+    window.keys(Modifiers::COMMAND, Key::S);
+    assert!(window.has("Path"), "it asks");
+    window.click("Save");
+    let saved = window.folder.path().join("bodice.toile");
+    assert_eq!(Draft::read(&std::fs::read(&saved).unwrap()).unwrap().1, FileKind::Draft);
+    assert_eq!(std::fs::read(&copy).unwrap(), std::fs::read(&template).unwrap(), "the template is as it was");
+    window.key(Key::M);
+    window.keys(Modifiers::COMMAND, Key::S);
+    assert!(!window.has("Path"), "it does not ask again");
+    assert_eq!(Draft::from_bytes(&std::fs::read(&saved).unwrap()).unwrap(), *window.draft());
+}
+
+#[test]
+fn unsaved_work_is_asked_for_before_another_file_is_opened() {
+    let mut window = half_skirt();
+    let before = window.draft().clone();
+    let other = format!("{}/../../samples/fitted-bodice.json", env!("CARGO_MANIFEST_DIR"));
+    drop_file(&mut window, Path::new(&other));
+    assert_eq!(*window.draft(), before);
+    window.click("Go on working");
+    assert_eq!(*window.draft(), before);
+    drop_file(&mut window, Path::new(&other));
+    window.click("Do not save");
+    assert_ne!(*window.draft(), before);
+    window.wait(Designer::is_built);
+    // Nothing has changed since: the next one is opened at once.
+    window.keys(Modifiers::COMMAND, Key::N);
+    assert_eq!(*window.draft(), Draft::empty());
+}
+
+#[test]
+fn a_mesh_that_is_dropped_is_the_body_and_can_be_undone() {
+    let mut window = Window::new(Draft::empty());
+    let form = format!("{}/../../samples/form-12.obj", env!("CARGO_MANIFEST_DIR"));
+    drop_file(&mut window, Path::new(&form));
+    window.wait(Designer::is_idle);
+    assert_eq!(window.draft().body.name(), "form-12.obj");
+    window.keys(Modifiers::COMMAND, Key::Z);
+    assert_eq!(*window.draft(), Draft::empty());
+}
+
+#[test]
+fn work_that_a_killed_window_left_is_offered_and_comes_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let state = folder.path().join("state");
+    std::fs::create_dir_all(&state).unwrap();
+    let history = {
+        let mut history = History::new(Draft::empty());
+        let edit = design::draft::Edit::CreateNode {
+            name: "left_one".to_owned(),
+            node: template::format::NodeSpec {
+                at: Some(template::format::At::Point("left_armpit".to_owned())),
+                ..Default::default()
+            },
+        };
+        history.apply(design::draft::Command::Edit(edit)).unwrap();
+        history
+    };
+    // A number beyond any process's.
+    let left = state.join("4294967294-1.journal");
+    std::fs::write(&left, journal::to_bytes(&history)).unwrap();
+    let mut window = Window::open(Draft::empty(), None, folder);
+    let labels = window.labels();
+    let told = labels.iter().any(|l| l.contains("1 changes, the last: create node left_one"));
+    assert!(told, "{labels:?}");
+    window.click("Recover");
+    assert_eq!(window.draft(), &**history.draft());
+    assert!(!left.exists(), "the new journal holds it now");
+    let own: Vec<_> = std::fs::read_dir(&state).unwrap().flatten().map(|e| e.path()).collect();
+    let kept = own.iter().find(|p| p.extension().is_some_and(|e| e == "journal")).expect("a journal");
+    assert_eq!(journal::replay(&std::fs::read(kept).unwrap()).unwrap().draft(), history.draft());
+}

@@ -1,0 +1,166 @@
+//! Every tool by the mouse.
+
+use eframe::egui::{Key, Modifiers, PointerButton, Pos2, vec2};
+
+use crate::from_nothing::half_skirt;
+use crate::support::Window;
+use design::draft::Draft;
+use window::Designer;
+
+#[test]
+fn a_drag_moves_a_node_and_is_one_entry() {
+    let mut window = half_skirt();
+    window.key(Key::F5);
+    window.key(Key::V);
+    let before = window.draft().clone();
+    for by in [vec2(15.0, 12.0), vec2(-6.0, 9.0)] {
+        let from = window.at("node left_side_hip");
+        window.stroke(&[from, from + by]);
+        let moved = window.at("node left_side_hip") - from;
+        assert!((moved - by).length() < 3.0, "{moved:?} instead of {by:?}: {}", window.message());
+    }
+    window.keys(Modifiers::COMMAND, Key::Z);
+    assert_ne!(*window.draft(), before, "two drags are two entries");
+    window.keys(Modifiers::COMMAND, Key::Z);
+    assert_eq!(*window.draft(), before, "each is one");
+}
+
+#[test]
+fn clicks_select_by_kind_and_a_box_selects_many() {
+    let mut window = half_skirt();
+    window.wait(Designer::is_built);
+    window.key(Key::F5);
+    window.key(Key::Num2);
+    window.click("edge centre_front_hip – left_side_hip");
+    assert!(window.has("Delete"), "the inspector speaks of the edge");
+    window.key(Key::Num3);
+    let [a, b] = ["node centre_front_waist", "node left_side_hip"].map(|n| window.at(n));
+    let middle = a + (b - a) * 0.5;
+    window.stroke_click(middle);
+    assert!(window.has("face 1 of left_front"), "{}", window.message());
+    window.key(Key::Escape);
+    assert!(!window.has("face 1 of left_front"));
+    // The twin is picked as what it mirrors.
+    let axis = window.at("node centre_front_waist").x;
+    window.stroke_click(Pos2::new(2.0 * axis - middle.x, middle.y));
+    assert!(window.has("face 1 of left_front"), "{}", window.message());
+    window.key(Key::Num1);
+    window.stroke(&[Pos2::new(230.0, 90.0), Pos2::new(900.0, 760.0)]);
+    assert!(window.has("6 selected"), "four in front and two twins: {:?}", window.labels());
+    window.key(Key::Escape);
+    assert!(!window.has("6 selected"));
+}
+
+#[test]
+fn a_node_anywhere_on_the_body_is_bound_to_the_nearest_feature_point() {
+    let mut window = Window::new(Draft::empty());
+    window.key(Key::N);
+    let [a, b] =
+        ["feature point centre_front_hip", "feature point left_princess_front_hip"].map(|n| window.at(n));
+    let at = a + (b - a) * 0.5 + vec2(0.0, 25.0);
+    window.stroke_click(at);
+    let nodes = &window.draft().template.nodes;
+    let (name, node) = nodes.iter().next().expect("a node was made");
+    assert!(name.starts_with("left_") && name.ends_with("_beside"), "{name}");
+    assert!(node.first != 0.0 && node.second != 0.0);
+    let there = window.at(&format!("node {name}"));
+    assert!(there.distance(at) < 12.0, "{there:?} {at:?}");
+}
+
+#[test]
+fn faces_that_cannot_be_are_refused_with_a_reason() {
+    let mut window = half_skirt();
+    window.key(Key::F5);
+    window.key(Key::F);
+    window.write("New faces go to", "left_front");
+    for name in ["centre_front_waist", "centre_front_hip", "left_side_hip", "left_side_waist"] {
+        window.click(&format!("node {name}"));
+    }
+    assert!(window.message().contains("has it already"), "{}", window.message());
+    window.click("node centre_front_waist");
+    window.key(Key::Enter);
+    assert!(window.message().contains("three or four nodes"), "{}", window.message());
+    let before = window.draft().clone();
+    window.key(Key::V);
+    window.click("node centre_front_waist");
+    window.key(Key::Delete);
+    assert!(window.message().contains("delete that first"), "{}", window.message());
+    assert_eq!(*window.draft(), before);
+}
+
+#[test]
+fn a_face_goes_to_another_surface_and_goes() {
+    let mut window = half_skirt();
+    window.key(Key::F5);
+    window.key(Key::Num3);
+    let [a, b] = ["node centre_front_waist", "node left_side_hip"].map(|n| window.at(n));
+    window.stroke_click(a + (b - a) * 0.5);
+    window.click("Delete face");
+    assert_eq!(window.draft().template.surfaces.len(), 1, "{}", window.message());
+    window.keys(Modifiers::COMMAND, Key::Z);
+    window.stroke_click(a + (b - a) * 0.5);
+    window.write("New faces go to", "left_panel");
+    window.click("Assign to the new surface left_panel");
+    assert!(window.draft().template.surfaces.contains_key("left_panel"), "{}", window.message());
+}
+
+#[test]
+fn a_stroke_over_two_edges_is_one_entry_and_can_be_drawn_again() {
+    let mut window = Window::sample("princess-dress.json");
+    window.key(Key::K);
+    let lines = window.draft().template.lines.len();
+    let before = window.draft().clone();
+    let stroke = ["node front_hip", "node front_thigh"].map(|n| window.at(n));
+    let bent = stroke[0] + (stroke[1] - stroke[0]) * 0.5 + vec2(8.0, 0.0);
+    window.stroke(&[stroke[0], bent, stroke[1]]);
+    let drawn = window.draft().template.lines.len() - lines;
+    assert!(drawn <= 2, "{drawn} {}", window.message());
+    if drawn > 0 {
+        window.keys(Modifiers::COMMAND, Key::Z);
+        assert_eq!(*window.draft(), before);
+    }
+}
+
+#[test]
+fn curves_are_drawn_on_the_body_in_three_ways() {
+    let mut window = Window::new(Draft::empty());
+    window.key(Key::N);
+    let [waist, side, hip] = ["centre_front_waist", "left_side_waist", "centre_front_hip"]
+        .map(|n| window.at(&format!("feature point {n}")));
+    window.key(Key::D);
+    window.stroke(&[waist, waist + (hip - waist) * 0.5 + vec2(20.0, 0.0), hip]);
+    assert_eq!(window.draft().features.len(), 1, "{}", window.message());
+    window.action("Curve: Plane section");
+    let below = vec2(0.0, 12.0);
+    window.stroke(&[waist + below - vec2(30.0, 0.0), side + below]);
+    let section = &window.draft().features["drawn_curve_2"];
+    assert!(section.closed && section.points.len() > 20, "{}", window.message());
+    window.action("Curve: Shortest path");
+    window.stroke_click(waist + vec2(5.0, 5.0));
+    window.stroke_click(hip + vec2(20.0, 0.0));
+    assert_eq!(window.draft().features.len(), 3, "{}", window.message());
+    // A node may stand where a drawn curve crosses another.
+    window.key(Key::N);
+    let crossing =
+        window.labels().into_iter().find(|l| l.starts_with("feature point") && l.contains("drawn"));
+    window.click(&crossing.expect("the closed curve crosses the centre front"));
+    assert_eq!(window.draft().template.nodes.len(), 1, "{}", window.message());
+}
+
+#[test]
+fn a_body_measure_is_dragged_and_is_one_entry() {
+    let mut window = half_skirt();
+    window.wait(Designer::is_built);
+    let before = window.draft().clone();
+    let slider = window.slider("hip");
+    window.drag(
+        PointerButton::Primary,
+        &[slider.center(), slider.center() + vec2(8.0, 0.0)],
+        6,
+        Modifiers::NONE,
+    );
+    assert_ne!(*window.draft(), before, "{}", window.message());
+    window.wait(Designer::is_built);
+    window.keys(Modifiers::COMMAND, Key::Z);
+    assert_eq!(*window.draft(), before);
+}
