@@ -27,11 +27,13 @@ pub enum DeflateError {
         wanted: &'static str,
     },
     /// Some edges have one face only.
-    #[error("the solid is open: {edges} edges have one face only, the first at ({:.3}, {:.3}, {:.3}); close its holes first",
-        at.x, at.y, at.z)]
+    #[error("the solid is open: {edges} edges have one face only, first face {} at ({:.3}, {:.3}, {:.3}); close its holes first",
+        face + 1, at.x, at.y, at.z)]
     Open {
         /// How many.
         edges: usize,
+        /// The face at the first, of the input.
+        face: u32,
         /// The middle of the first.
         at: DVec3,
     },
@@ -46,7 +48,7 @@ pub enum DeflateError {
     },
     /// Faces cross.
     #[error("the solid crosses itself: {pairs} pairs of faces have more in common than their nodes, \
-        the first at ({:.3}, {:.3}, {:.3})", at.x, at.y, at.z)]
+        first the faces {} and {} at ({:.3}, {:.3}, {:.3})", faces[0] + 1, faces[1] + 1, at.x, at.y, at.z)]
     SelfCrossing {
         /// How many pairs.
         pairs: usize,

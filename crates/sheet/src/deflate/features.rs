@@ -4,6 +4,8 @@
 //! Nothing is cut out of the solid. A feature that goes is a set of face groups that the mid-surface is made without, and the
 //! outline of the wall about it is left out, so that the wall goes on below.
 
+use std::collections::BTreeSet;
+
 use glam::DVec3;
 
 use super::DeflateOptions;
@@ -140,7 +142,8 @@ impl Features {
 /// The radius of what is round of some groups, if most of them is.
 fn radius(segments: &Segments, geometry: &Faces, groups: &[u32]) -> Option<f64> {
     let mut areas: Vec<(f64, f64)> = Vec::new();
-    let is_own = |face: &&Face| groups.contains(&segments.of(face.triangles[0]));
+    let own: BTreeSet<u32> = groups.iter().copied().collect();
+    let is_own = |face: &&Face| own.contains(&segments.of(face.triangles[0]));
     for face in geometry.list.iter().filter(is_own) {
         let radius = match face.shape {
             Shape::Cylinder { radius, .. } | Shape::Sphere { radius, .. } => radius,
@@ -164,18 +167,19 @@ fn blend(solid: &Solid, segments: &Segments, walls: &Walls, blends: &Blends, set
     if !blended || !set.about.iter().any(|g| walls.is_wall[*g as usize]) {
         return None;
     }
+    let own: BTreeSet<u32> = set.groups.iter().copied().collect();
     let (mut outline, mut concave, mut turn) = (0.0, 0.0, 0.0);
     for h in faces.iter().flat_map(|f| 3 * f..3 * f + 3) {
         let other = segments.of(solid.across(h));
         let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
         let length = a.distance(b);
-        if !set.groups.contains(&other) {
+        if !own.contains(&other) {
             outline += length;
         }
         // Folds along the strip add up to its turn; edges within it are met from both sides.
         let cosine = solid.fold_cosine(h).clamp(-1.0, 1.0);
         if cosine > OBLIQUE.cos() {
-            let bend = length * cosine.acos() / if set.groups.contains(&other) { 2.0 } else { 1.0 };
+            let bend = length * cosine.acos() / if own.contains(&other) { 2.0 } else { 1.0 };
             turn += bend;
             concave += if solid.is_convex(h) { 0.0 } else { bend };
         }

@@ -102,8 +102,8 @@ impl Watcher for Nobody {}
 
 /// Deflates a solid.
 ///
-/// Walls between plane faces get exact mid-planes; curved walls follow the tessellation of the solid. The solid may be
-/// wound either way; nodes in one place are welded.
+/// Walls between plane faces get exact mid-planes; curved walls follow the tessellation of the solid, or with an edge length
+/// have their nodes on the exact middles of round faces. The solid may be wound either way; nodes in one place are welded.
 ///
 /// ```
 /// use mesh_kernel::TriMesh;

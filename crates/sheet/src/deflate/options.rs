@@ -29,7 +29,8 @@ pub struct DeflateOptions {
     pub keep: Vec<usize>,
     /// What becomes of steps in thickness.
     pub steps: Steps,
-    /// Edges of the mid-surface are at most about this long; `None`: as long as the solid's.
+    /// Edges of the mid-surface are about this long, and thicknesses of round walls those of their geometry; `None`: the
+    /// mid-surface follows the facets of the solid.
     pub edge_length: Option<f64>,
 }
 

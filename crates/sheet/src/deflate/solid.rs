@@ -44,7 +44,7 @@ impl Solid {
             return Err(DeflateError::Empty);
         }
         let mut adjacency = Adjacency::new(&mesh);
-        check_closed(&mesh, &adjacency)?;
+        check_closed(&mesh, &adjacency, &sources)?;
         if let Some(&[f, g]) = Crossings::new(&mesh).self_crossing().first().map(|(f, g)| [*f, *g]).as_ref() {
             let pairs = Crossings::new(&mesh).self_crossing().len();
             let [a, b, c] = mesh.corners(f);
@@ -92,7 +92,7 @@ impl Solid {
     }
 }
 
-fn check_closed(mesh: &TriMesh, adjacency: &Adjacency) -> Result<(), DeflateError> {
+fn check_closed(mesh: &TriMesh, adjacency: &Adjacency, sources: &[u32]) -> Result<(), DeflateError> {
     let middle = |e: u32| {
         let [a, b] = adjacency.edges()[e as usize].map(|v| mesh.positions[v as usize]);
         (a + b) / 2.0
@@ -106,7 +106,8 @@ fn check_closed(mesh: &TriMesh, adjacency: &Adjacency) -> Result<(), DeflateErro
         }
     }
     if let Some(&first) = open.first() {
-        return Err(DeflateError::Open { edges: open.len(), at: middle(first) });
+        let face = adjacency.half_edges(first).first().map_or(0, |h| sources[*h as usize / 3]);
+        return Err(DeflateError::Open { edges: open.len(), face, at: middle(first) });
     }
     match wrong.first() {
         Some(&first) => Err(DeflateError::NotManifold { edges: wrong.len(), at: middle(first) }),

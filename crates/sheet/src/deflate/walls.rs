@@ -129,7 +129,8 @@ impl Walls {
             look.seen = look.seen.filter(|(_, s)| *s <= walls.max_thickness);
         }
         let paired: f64 = looks.iter().filter(|l| l.seen.is_some()).map(|l| l.area).sum();
-        walls.paired_share = paired / total;
+        // An empty sum is a negative zero.
+        walls.paired_share = paired.max(0.0) / total + 0.0;
         walls.pairs = pairs_of(&looks);
         let thick: Vec<Option<f64>> = (0..segments.groups.len() as u32)
             .map(|g| {
