@@ -487,6 +487,10 @@ impl eframe::App for Designer {
         if let Some(path) = dropped {
             self.ask(crate::prompts::Next::Open(path));
         }
+        // A drag is over when no button is down, even when what was dragged is no longer on the screen.
+        if !context.input(|i| i.pointer.any_down() || i.pointer.any_released()) {
+            self.settle();
+        }
         self.refresh(&context);
         self.keys(&context);
         self.hovered_seam = None;

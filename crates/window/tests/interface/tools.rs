@@ -149,16 +149,18 @@ fn curves_are_drawn_on_the_body_in_three_ways() {
 
 #[test]
 fn a_body_measure_is_dragged_and_is_one_entry() {
-    let mut window = half_skirt();
+    let mut window = Window::sample("princess-dress.json");
     window.wait(Designer::is_built);
     let before = window.draft().clone();
     let slider = window.slider("hip");
-    window.drag(
-        PointerButton::Primary,
-        &[slider.center(), slider.center() + vec2(8.0, 0.0)],
-        6,
-        Modifiers::NONE,
-    );
+    // Slowly, so that previews come while it is dragged; the pointer stays on the knob.
+    let end = slider.center() + vec2(8.0, 0.0);
+    window.hold(&[slider.center(), slider.center() + vec2(4.0, 0.0)]);
+    window.wait(|d| !d.is_built());
+    window.pause();
+    assert_eq!(window.slider("hip"), slider, "nothing moves under the hand");
+    window.let_go(end);
+    assert!(!window.has("not built yet"));
     assert_ne!(*window.draft(), before, "{}", window.message());
     window.wait(Designer::is_built);
     window.keys(Modifiers::COMMAND, Key::Z);
