@@ -1,6 +1,6 @@
 //! Every tool by the mouse.
 
-use eframe::egui::{Key, Modifiers, PointerButton, Pos2, vec2};
+use eframe::egui::{Key, Modifiers, Pos2, vec2};
 
 use crate::from_nothing::half_skirt;
 use crate::support::Window;
