@@ -250,6 +250,7 @@ impl Designer {
     pub(crate) fn take_tool(&mut self, tool: Tool) {
         self.tool = tool;
         self.machine = tool.start();
+        self.notices.forget_problems();
         self.session.selection.replace(Vec::new());
     }
 

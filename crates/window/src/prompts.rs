@@ -149,8 +149,9 @@ impl Designer {
     }
 
     pub(crate) fn prompt_open(&mut self) {
-        let folder = self.session.beside("");
-        let folder = std::path::absolute(&folder).or_else(|_| std::env::current_dir()).unwrap_or(folder);
+        let own = self.session.file.as_ref().and_then(|f| f.path.parent()).map(Path::to_owned);
+        let folder = own.and_then(|f| std::path::absolute(f).ok()).or_else(|| std::env::current_dir().ok());
+        let folder = folder.unwrap_or_default();
         let text = format!("{}{}", folder.display(), std::path::MAIN_SEPARATOR);
         self.prompt = Some(Prompt::Path { purpose: Purpose::Open, text, note: String::new() });
     }
