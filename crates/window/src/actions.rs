@@ -7,7 +7,7 @@ use crate::designer::{Designer, Prompt};
 use crate::files::LIBRARY;
 use crate::preferences::Theme;
 use crate::prompts::Next;
-use crate::selection::{Element, Mode};
+use crate::selection::Mode;
 use crate::tools::{Drawing, Event, Tool};
 use crate::units::LengthUnit;
 use crate::view::scene::{Colouring, Section};
@@ -398,42 +398,6 @@ impl Designer {
             if context.input_mut(|i| consume(i, &shortcut)) {
                 action.run(self, context);
             }
-        }
-    }
-
-    /// Deletes what is selected: several things are one entry of the history.
-    pub(crate) fn delete(&mut self) {
-        let draft = self.draft();
-        let on_edge = |ends: &[String; 2]| {
-            let lines = draft.template.lines.iter();
-            let own =
-                lines.filter(|(_, l)| l.through.len() == 2 && l.through.iter().all(|n| ends.contains(n)));
-            own.map(|(name, _)| name.clone()).next()
-        };
-        let mut edits = Vec::new();
-        let mut faces: Vec<(String, usize)> = Vec::new();
-        for element in &self.session.selection.elements {
-            match element {
-                Element::Node(name) => edits.push(Edit::DeleteNode { name: name.clone() }),
-                Element::Edge(ends) => edits.push(match on_edge(ends) {
-                    Some(name) => Edit::DeleteProfile { name },
-                    None => Edit::DeleteEdge { from: ends[0].clone(), to: ends[1].clone() },
-                }),
-                Element::Face { surface, face } => faces.push((surface.clone(), *face)),
-                Element::Joint(_) => {
-                    return self.problem(
-                        "joints go with the edges that surfaces share; split them in the inspector",
-                    );
-                }
-            }
-        }
-        // The last first, so that the numbers of the others stay.
-        faces.sort();
-        edits.extend(faces.into_iter().rev().map(|(surface, face)| Edit::DeleteFace { surface, face }));
-        match edits.len() {
-            0 => self.problem("nothing is selected"),
-            1 => edits.into_iter().for_each(|edit| self.edit(edit)),
-            n => self.edit(Edit::Together { label: format!("delete {n} things"), edits }),
         }
     }
 }

@@ -21,7 +21,7 @@ use crate::selection::{Element, Mode};
 use crate::session::{OnDisk, Session};
 use crate::tools::{Drawing, Effect, Event, Machine, Tool, World};
 use crate::view::pick::Picker;
-use crate::view::scene::{self, Look};
+use crate::view::scene::Look;
 use crate::view::{GlPainter, View};
 
 /// What a window begins with.
@@ -51,9 +51,6 @@ pub(crate) enum Stale {
     Whole,
 }
 
-/// Garments of earlier drafts that are kept, for undo to show them at once.
-const KEPT: usize = 8;
-
 /// The designer.
 pub struct Designer {
     pub(crate) session: Session,
@@ -82,10 +79,12 @@ pub struct Designer {
     pub(crate) may_close: bool,
     /// What the eye turns about while it is turned.
     pub(crate) pivot: Option<glam::DVec3>,
-    stale: Stale,
-    kept: VecDeque<(Arc<Draft>, Arc<Body>, Arc<Cloth>)>,
+    pub(crate) stale: Stale,
+    /// The draft whose garment is shown, whole.
+    pub(crate) built: Option<Arc<Draft>>,
+    pub(crate) kept: VecDeque<(Arc<Draft>, Arc<Body>, Arc<Cloth>)>,
     gl: Option<Arc<glow::Context>>,
-    is_framed: bool,
+    pub(crate) is_framed: bool,
 }
 
 impl Designer {
@@ -117,6 +116,7 @@ impl Designer {
             may_close: false,
             pivot: None,
             stale: Stale::Whole,
+            built: None,
             kept: VecDeque::new(),
             gl: None,
             is_framed: false,
@@ -148,9 +148,8 @@ impl Designer {
 
     /// Whether the garment that is shown is that of the latest draft, pattern and all.
     pub fn is_built(&self) -> bool {
-        self.stale == Stale::Nothing
-            && self.builder.step().is_none()
-            && self.model.cloth.as_ref().is_some_and(|c| c.made.is_some())
+        let is_latest = self.built.as_ref().is_some_and(|b| Arc::ptr_eq(b, self.session.draft()));
+        is_latest && self.model.cloth.as_ref().is_some_and(|c| c.made.is_some())
     }
 
     /// Whether the body is there, and nothing is being built.
@@ -218,59 +217,6 @@ impl Designer {
         }
     }
 
-    /// Brings everything that is derived up to the draft.
-    pub(crate) fn follow(&mut self) {
-        let draft = Arc::clone(self.session.draft());
-        if self.stale == Stale::Whole
-            && let Some((_, body, cloth)) = self.kept.iter().find(|(d, ..)| Arc::ptr_eq(d, &draft))
-        {
-            (self.model.body, self.model.cloth) = (Some(Arc::clone(body)), Some(Arc::clone(cloth)));
-            self.show_solids();
-            self.builder.cancel();
-            self.stale = Stale::Nothing;
-        }
-        if draft.template.surfaces.is_empty() && self.model.cloth.take().is_some() {
-            self.show_solids();
-        }
-        if let Err(e) = self.model.follow(&draft) {
-            self.problem(e);
-        }
-        self.model.find_anchors(&draft);
-        let places = &self.model.places;
-        self.session.selection.elements.retain(|e| e.is_in(&draft, places));
-        if !draft.template.surfaces.contains_key(&self.session.surface)
-            && self.session.surface.is_empty()
-            && let Some(first) = draft.template.surfaces.keys().next()
-        {
-            self.session.surface.clone_from(first);
-        }
-        self.show_lines();
-    }
-
-    /// The garments of the design before are of no use to the next.
-    pub(crate) fn forget_garments(&mut self) {
-        self.kept.clear();
-        self.builder.cancel();
-        (self.export_to, self.model.cloth, self.last_made) = (None, None, None);
-        self.stale = Stale::Whole;
-        self.is_framed = false;
-        self.follow();
-        self.show_solids();
-    }
-
-    /// Another body or garment is there.
-    fn show_solids(&mut self) {
-        self.view.solids.body = self.model.body.as_ref().map(|b| Arc::clone(&b.caster));
-        self.view.solids.garment =
-            self.model.cloth.as_ref().filter(|_| self.look.garment).map(|c| Arc::clone(&c.caster));
-        self.view.set_scene(scene::scene(&self.model, &self.look));
-    }
-
-    fn show_lines(&mut self) {
-        let (lines, points) = scene::template_lines(&self.model, &self.look);
-        self.view.set_lines(lines, points);
-    }
-
     /// Shows things in another way.
     pub(crate) fn relook(&mut self, change: impl FnOnce(&mut Look)) {
         change(&mut self.look);
@@ -304,6 +250,7 @@ impl Designer {
     pub(crate) fn take_tool(&mut self, tool: Tool) {
         self.tool = tool;
         self.machine = tool.start();
+        self.notices.forget_problems();
         self.session.selection.replace(Vec::new());
     }
 
@@ -409,60 +356,6 @@ impl Designer {
         }
         self.session.selection.replace(elements);
     }
-
-    /// Takes what the workers have made and starts what is wanted.
-    pub(crate) fn refresh(&mut self, context: &egui::Context) {
-        if let Some(done) = self.builder.take() {
-            let is_new_body = done.body.is_some();
-            if let Some(body) = done.body {
-                self.model.body = Some(body);
-            }
-            match done.cloth {
-                Ok(cloth) => {
-                    if let (true, Some(cloth), Some(body)) = (done.is_whole, &cloth, &self.model.body) {
-                        let draft = Arc::clone(self.session.draft());
-                        if self.stale == Stale::Nothing {
-                            self.kept.retain(|(d, ..)| !Arc::ptr_eq(d, &draft));
-                            self.kept.push_front((draft, Arc::clone(body), Arc::clone(cloth)));
-                            self.kept.truncate(KEPT);
-                        }
-                    }
-                    self.model.cloth = cloth;
-                }
-                Err(e) => {
-                    self.export_to = None;
-                    self.problem(e);
-                }
-            }
-            let draft = Arc::clone(self.session.draft());
-            if is_new_body && let Err(e) = self.model.follow(&draft) {
-                self.problem(e);
-            }
-            self.model.find_anchors(&draft);
-            self.show_solids();
-            if !std::mem::replace(&mut self.is_framed, true) {
-                self.frame_all();
-            }
-        }
-        match self.stale {
-            Stale::Nothing => {}
-            Stale::Rough => self.builder.preview(self.session.draft(), context),
-            Stale::Whole => self.builder.build(self.session.draft(), context),
-        }
-        self.stale = Stale::Nothing;
-        if self.is_built()
-            && let Some(folder) = self.export_to.take()
-        {
-            self.export(folder, context);
-        }
-        if let Some(done) = self.file_job.as_ref().and_then(FileJob::take) {
-            self.file_job = None;
-            match done {
-                Ok(text) => self.notices.say(text),
-                Err(text) => self.problem(text),
-            }
-        }
-    }
 }
 
 impl eframe::App for Designer {
@@ -486,6 +379,10 @@ impl eframe::App for Designer {
         let dropped = context.input(|i| i.raw.dropped_files.first().map(|f| f.path().to_path_buf()));
         if let Some(path) = dropped {
             self.ask(crate::prompts::Next::Open(path));
+        }
+        // A drag is over when no button is down, even when what was dragged is no longer on the screen.
+        if !context.input(|i| i.pointer.any_down() || i.pointer.any_released()) {
+            self.settle();
         }
         self.refresh(&context);
         self.keys(&context);

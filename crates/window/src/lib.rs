@@ -9,8 +9,11 @@
 
 mod actions;
 mod canvas;
+mod deletion;
 mod designer;
+mod dialogs;
 mod files;
+mod following;
 mod jobs;
 #[cfg(test)]
 mod measure;

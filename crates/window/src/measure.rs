@@ -96,10 +96,13 @@ fn how_long() {
     let levels = [1u8, 2, 3];
     for level in levels {
         let mut faces = 0;
+        let mut seconds = template::Seconds::default();
         let time = p95(20, |_| {
             let made = preview(&draft, &on, level, &AtomicBool::new(false)).unwrap();
             faces = made.body.to_tri_mesh().faces.len();
+            seconds = made.seconds;
         });
+        println!("{seconds:?}");
         println!("preview of {faces} triangles: {time:.1} ms");
     }
     let coarse = p95(5, |_| drop(draft.body.load(Some(crate::jobs::PREVIEW_BODY)).unwrap()));

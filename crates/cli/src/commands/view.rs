@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use design::draft::{BodySource, Draft, Mesh, state_folder};
+use design::draft::{BodySource, Draft, Mesh, journal, state_folder};
 
 use super::{extension, file_name, read_mesh};
 use crate::failure::Failure;
 use crate::words::View;
 
 pub(crate) fn run(words: &View) -> Result<(), Failure> {
-    let is_mesh = |path: &std::path::Path| !matches!(extension(path).as_str(), "json" | "toile");
+    let is_mesh = |path: &std::path::Path| !matches!(extension(path).as_str(), "json" | "toile" | "journal");
     let mut body = words.body.clone();
     let mut draft = Draft::empty();
     let mut file = None;
@@ -18,9 +18,14 @@ pub(crate) fn run(words: &View) -> Result<(), Failure> {
         Some(path) => {
             let bytes = std::fs::read(path)
                 .map_err(|e| Failure::new(format!("cannot read {}: {e}", path.display())))?;
-            let (read, kind) = Draft::read(&bytes).map_err(|e| Failure::from(e).about(path))?;
-            draft = read;
-            file = Some((path.clone(), kind));
+            if extension(path) == "journal" {
+                let history = journal::replay(&bytes).map_err(|e| Failure::from(e).about(path))?;
+                draft = Draft::clone(history.draft());
+            } else {
+                let (read, kind) = Draft::read(&bytes).map_err(|e| Failure::from(e).about(path))?;
+                draft = read;
+                file = Some((path.clone(), kind));
+            }
         }
         None => {}
     }

@@ -184,7 +184,7 @@ impl Designer {
     }
 
     fn eases(&mut self, ui: &mut egui::Ui, draft: &Draft) {
-        let made = self.model.cloth.as_ref().and_then(|c| c.made.as_ref()).map(|m| m.garment.ease.clone());
+        let made = self.last_made.as_ref().map(|m| m.garment.ease.clone());
         if draft.template.surfaces.is_empty() {
             return;
         }
@@ -205,9 +205,12 @@ impl Designer {
                     self.edit(Edit::SetEase { level: level.clone(), ease: None });
                 }
             });
-            if let Some(got) = made.as_ref().and_then(|m| m.get(level)) {
-                ui.weak(format!("the garment has {}", unit.text(*got)));
-            }
+            // A line in any case: what stands below must not move under the hand while a preview has no ease.
+            let got = made.as_ref().and_then(|m| m.get(level));
+            ui.weak(got.map_or_else(
+                || "not built yet".to_owned(),
+                |g| format!("the garment has {}", unit.text(*g)),
+            ));
         }
         let levels = self.model.human().map(|h| {
             let closed = h.features.curves.iter().filter(|(n, c)| c.closed && n.ends_with("_tape"));

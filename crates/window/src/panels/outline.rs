@@ -10,6 +10,8 @@ use crate::selection::{Element, Mode, joint_name, joints_of};
 
 impl Designer {
     pub(crate) fn outline(&mut self, ui: &mut egui::Ui) {
+        // A long name must not move the views beside it.
+        ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Truncate);
         let draft = Arc::clone(self.session.draft());
         let file = &draft.template;
         let mut chosen: Option<(Mode, Element)> = None;
@@ -101,12 +103,12 @@ fn deletable(
     edit: impl FnOnce() -> Edit,
 ) {
     ui.horizontal(|ui| {
-        ui.label(name);
         let delete = format!("Delete {kind} {name}");
         let button = ui.small_button("×").on_hover_text(&delete);
         button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &delete));
         if button.clicked() {
             *gone = Some(edit());
         }
+        ui.label(name);
     });
 }

@@ -3,7 +3,7 @@
 use design::draft::{Edit, edges};
 use glam::{DVec2, DVec3};
 use sketch::{
-    PickOptions, PickedEdge, Plane, ProfileOptions, SketchError, SpaceEdge, Stabiliser, Stroke,
+    Camera, PickOptions, PickedEdge, Plane, ProfileOptions, SketchError, SpaceEdge, Stabiliser, Stroke,
     bisecting_plane, fitted_plane, pick_edges, profiles,
 };
 use template::format::LineSpec;
@@ -16,6 +16,9 @@ use crate::selection::{Element, Mode};
 const SLACK: f64 = 60.0;
 /// The pen pulls the ink on a string of this length, points: it takes the hand's tremble.
 const STRING: f64 = 2.0;
+
+/// A row of edges bends by less than this share of its length: it counts as straight.
+const STRAIGHT: f64 = 0.1;
 
 #[derive(Default)]
 pub(super) struct Sketch {
@@ -51,9 +54,28 @@ fn meaning(stroke: &Stroke, world: &World) -> Result<Meaning, SketchError> {
             Some(bisecting_plane(&eye.camera, one, &normals_at(&names[pick.edge], world))?)
         }
         ([], _) | (_, None) => None,
-        (several, _) => Some(fitted_plane(&eye.camera, several)?),
+        (several, _) => Some(plane_of(&eye.camera, several)?),
     };
     Ok(Meaning { names, space, picked, plane })
+}
+
+/// The plane that fits several edges best. Edges in a row that is nearly straight fit many planes about as well: where the
+/// best one is seen from its edge, the one through the row that faces the eye is taken.
+fn plane_of(camera: &Camera, edges: &[SpaceEdge]) -> Result<Plane, SketchError> {
+    let fitted = fitted_plane(camera, edges);
+    if fitted != Err(SketchError::SeenEdgeOn) {
+        return fitted;
+    }
+    let ends: Vec<DVec3> = edges.iter().flat_map(|e| e.ends).collect();
+    let pairs = ends.iter().flat_map(|a| ends.iter().map(move |b| [*a, *b]));
+    let farthest = pairs.max_by(|p, q| p[0].distance(p[1]).total_cmp(&q[0].distance(q[1])));
+    let Some([a, b]) = farthest else { return fitted };
+    let along = (b - a).normalize_or_zero();
+    let off = |p: &DVec3| ((*p - a) - along * (*p - a).dot(along)).length();
+    if ends.iter().any(|p| off(p) > STRAIGHT * a.distance(b)) {
+        return fitted;
+    }
+    bisecting_plane(camera, &SpaceEdge { ends: [a, b] }, &[])
 }
 
 /// Normals of the template's faces at an edge.

@@ -12,101 +12,10 @@ use glam::DMat4;
 use sketch::Camera;
 use viewer::{Hidden, MeshBuffer, Scene};
 
+use super::shaders::{LINE_FRAGMENT, LINE_VERTEX, MESH_FRAGMENT, MESH_VERTEX};
+
 /// Bytes of a vertex of a line: both ends (six `f32`), which end and side (two `f32`), half the width (`f32`), colour.
 const LINE_STRIDE: i32 = 40;
-
-const MESH_VERTEX: &str = "
-uniform mat4 clip;
-in vec3 position;
-in vec3 normal;
-in vec4 front;
-in vec4 reverse;
-out vec3 v_place;
-out vec3 v_normal;
-out vec4 v_front;
-out vec4 v_reverse;
-void main() {
-    v_place = position;
-    v_normal = normal;
-    v_front = front;
-    v_reverse = reverse;
-    gl_Position = clip * vec4(position, 1.0);
-}
-";
-
-const MESH_FRAGMENT: &str = "
-uniform vec3 eye;
-uniform vec3 sight;
-uniform vec3 key;
-uniform vec3 fill;
-uniform vec3 up;
-in vec3 v_place;
-in vec3 v_normal;
-in vec4 v_front;
-in vec4 v_reverse;
-out vec4 out_color;
-void main() {
-    vec3 to_eye = sight == vec3(0.0) ? normalize(eye - v_place) : sight;
-    bool is_front = gl_FrontFacing;
-    vec3 n = normalize(v_normal);
-    if (!is_front) {
-        n = -n;
-    }
-    float lean = dot(n, to_eye);
-    if (lean < 0.0) {
-        n = normalize(n - to_eye * lean);
-    }
-    vec4 color = is_front ? v_front : v_reverse;
-    vec3 light = lit(pow(color.rgb, vec3(2.2)), n, to_eye, key, fill, up, color.a > 0.5);
-    out_color = vec4(pow(clamp(light, 0.0, 1.0), vec3(1.0 / 2.2)), 1.0);
-}
-";
-
-const LINE_VERTEX: &str = "
-uniform mat4 clip;
-uniform vec2 size;
-uniform float bias;
-uniform float scale;
-in vec3 a;
-in vec3 b;
-in vec3 corner;
-in vec4 color;
-out vec4 v_color;
-out vec2 v_across;
-void main() {
-    vec4 from = clip * vec4(a, 1.0);
-    vec4 to = clip * vec4(b, 1.0);
-    bool is_point = a == b;
-    vec2 along = is_point ? vec2(1.0, 0.0) : (to.xy / to.w - from.xy / from.w) * size;
-    along = length(along) > 1e-6 ? normalize(along) : vec2(1.0, 0.0);
-    vec2 side = vec2(-along.y, along.x);
-    float reach = scale * corner.z + 1.0;
-    vec4 at = corner.x < 0.0 ? from : to;
-    vec2 off = side * corner.y * reach + along * corner.x * (is_point ? reach : 0.0);
-    at.xy += off * 2.0 / size * at.w;
-    at.z -= bias * at.w;
-    gl_Position = (from.w <= 0.0 || to.w <= 0.0) ? vec4(0.0, 0.0, 2.0, 1.0) : at;
-    v_color = color;
-    v_across = vec2(is_point ? corner.x * reach : 0.0, corner.y * reach);
-}
-";
-
-const LINE_FRAGMENT: &str = "
-uniform float strength;
-uniform float scale;
-in vec4 v_color;
-in vec2 v_across;
-out vec4 out_color;
-void main() {
-    // The colour's last byte is the width in pixels at scale 1.
-    float half_width = v_color.a * 127.5 * scale;
-    float alpha = clamp(half_width + 0.5 - length(v_across), 0.0, 1.0) * strength;
-    if (alpha <= 0.0) {
-        discard;
-    }
-    out_color = vec4(v_color.rgb * alpha, alpha);
-}
-";
 
 /// What the callback needs, made anew when the scene changes.
 #[derive(Default)]

@@ -4,6 +4,7 @@ mod eye;
 mod gl;
 pub(crate) mod pick;
 pub(crate) mod scene;
+mod shaders;
 mod solids;
 
 use eframe::egui::{self, Color32, ColorImage, Pos2, Rect, TextureHandle, TextureOptions, pos2, vec2};

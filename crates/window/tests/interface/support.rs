@@ -233,3 +233,36 @@ impl Window {
         self.key(Key::Escape);
     }
 }
+
+impl Window {
+    /// Presses the primary button and moves on, without letting go.
+    pub(crate) fn hold(&mut self, through: &[Pos2]) {
+        self.harness.event(Event::PointerMoved(through[0]));
+        self.harness.event(press(through[0], true));
+        for at in through {
+            self.harness.event(Event::PointerMoved(*at));
+        }
+        self.steps();
+    }
+
+    /// Moves there and lets go.
+    pub(crate) fn let_go(&mut self, at: Pos2) {
+        self.harness.event(Event::PointerMoved(at));
+        self.harness.event(press(at, false));
+        self.steps();
+        self.harness.remove_cursor();
+    }
+
+    /// Long enough for a preview.
+    pub(crate) fn pause(&mut self) {
+        let started = Instant::now();
+        while started.elapsed() < Duration::from_millis(1500) {
+            self.steps();
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
+}
+
+fn press(pos: Pos2, pressed: bool) -> Event {
+    Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE }
+}

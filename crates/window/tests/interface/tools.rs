@@ -1,6 +1,6 @@
 //! Every tool by the mouse.
 
-use eframe::egui::{Key, Modifiers, PointerButton, Pos2, vec2};
+use eframe::egui::{Key, Modifiers, Pos2, vec2};
 
 use crate::from_nothing::half_skirt;
 use crate::support::Window;
@@ -107,18 +107,27 @@ fn a_face_goes_to_another_surface_and_goes() {
 #[test]
 fn a_stroke_over_two_edges_is_one_entry_and_can_be_drawn_again() {
     let mut window = Window::sample("princess-dress.json");
+    window.wait(Designer::is_built);
     window.key(Key::K);
     let lines = window.draft().template.lines.len();
     let before = window.draft().clone();
-    let stroke = ["node front_hip", "node front_thigh"].map(|n| window.at(n));
-    let bent = stroke[0] + (stroke[1] - stroke[0]) * 0.5 + vec2(8.0, 0.0);
-    window.stroke(&[stroke[0], bent, stroke[1]]);
-    let drawn = window.draft().template.lines.len() - lines;
-    assert!(drawn <= 2, "{drawn} {}", window.message());
-    if drawn > 0 {
-        window.keys(Modifiers::COMMAND, Key::Z);
-        assert_eq!(*window.draft(), before);
-    }
+    let [hip, thigh, hem] = ["node front_hip", "node front_thigh", "node front_hem"].map(|n| window.at(n));
+    let bent = |by: f32| vec2(by, 0.0);
+    window.stroke(&[hip, hip.lerp(thigh, 0.5) + bent(6.0), thigh, thigh.lerp(hem, 0.5) + bent(-6.0), hem]);
+    assert_eq!(window.draft().template.lines.len(), lines + 2, "{}", window.message());
+    let drawn = window.draft().clone();
+    window.stroke(&[hip, hip.lerp(thigh, 0.5) + bent(-9.0), thigh]);
+    assert_eq!(
+        window.draft().template.lines.len(),
+        lines + 2,
+        "the profile is drawn again: {}",
+        window.message()
+    );
+    assert_ne!(*window.draft(), drawn, "{}", window.message());
+    window.keys(Modifiers::COMMAND, Key::Z);
+    assert_eq!(*window.draft(), drawn);
+    window.keys(Modifiers::COMMAND, Key::Z);
+    assert_eq!(*window.draft(), before, "two profiles of one stroke are one entry");
 }
 
 #[test]
@@ -149,16 +158,18 @@ fn curves_are_drawn_on_the_body_in_three_ways() {
 
 #[test]
 fn a_body_measure_is_dragged_and_is_one_entry() {
-    let mut window = half_skirt();
+    let mut window = Window::sample("princess-dress.json");
     window.wait(Designer::is_built);
     let before = window.draft().clone();
     let slider = window.slider("hip");
-    window.drag(
-        PointerButton::Primary,
-        &[slider.center(), slider.center() + vec2(8.0, 0.0)],
-        6,
-        Modifiers::NONE,
-    );
+    // Slowly, so that previews come while it is dragged; the pointer stays on the knob.
+    let end = slider.center() + vec2(8.0, 0.0);
+    window.hold(&[slider.center(), slider.center() + vec2(4.0, 0.0)]);
+    window.wait(|d| !d.is_built());
+    window.pause();
+    assert_eq!(window.slider("hip"), slider, "nothing moves under the hand");
+    window.let_go(end);
+    assert!(!window.has("not built yet"));
     assert_ne!(*window.draft(), before, "{}", window.message());
     window.wait(Designer::is_built);
     window.keys(Modifiers::COMMAND, Key::Z);

@@ -1,0 +1,174 @@
+//! The insides of the questions: what is shown, and what was answered.
+
+use std::path::{Path, PathBuf};
+
+use design::draft::{FileKind, Recovery};
+use eframe::egui;
+
+use crate::actions::actions;
+use crate::files::{self, kind_of_name};
+use crate::prompts::{Answer, Next, Purpose};
+
+pub(crate) fn unsaved(ui: &mut egui::Ui, name: &str, next: &Next) -> Answer {
+    ui.heading("Save the changes?");
+    ui.label(format!("Changes of {name} are not saved."));
+    let mut answer = Answer::None;
+    ui.horizontal(|ui| {
+        if ui.button("Save").clicked() {
+            answer = Answer::Save(next.clone());
+        }
+        if ui.button("Do not save").clicked() {
+            answer = Answer::GiveUp(next.clone());
+        }
+        if ui.button("Go on working").clicked() {
+            answer = Answer::Close;
+        }
+    });
+    answer
+}
+
+pub(crate) fn recovery(ui: &mut egui::Ui, found: &[(Recovery, String)]) -> Answer {
+    ui.heading("Work that was not saved");
+    ui.label("toile ended without saving. The work is still there:");
+    let mut answer = Answer::None;
+    for (recovery, text) in found {
+        ui.horizontal(|ui| {
+            ui.add(egui::Label::new(text).wrap());
+            if ui.button("Recover").clicked() {
+                answer = Answer::Recover(recovery.clone());
+            }
+            if ui.button("Throw away").clicked() {
+                answer = Answer::Discard(recovery.clone());
+            }
+        });
+    }
+    if ui.button("Later").on_hover_text("Ask again at the next start").clicked() {
+        answer = Answer::Close;
+    }
+    answer
+}
+
+pub(crate) fn path(
+    ui: &mut egui::Ui,
+    purpose: &mut Purpose,
+    text: &mut String,
+    note: &str,
+    recent: &[PathBuf],
+) -> Answer {
+    let (heading, button) = match purpose {
+        Purpose::Open => ("Open a design, a template or a body", "Open"),
+        Purpose::SaveAs(_) => ("Save as", "Save"),
+        Purpose::Export => ("Export all files", "Export"),
+        Purpose::Thicken(_) => ("Thicken the garment to a solid", "Thicken"),
+    };
+    ui.heading(heading);
+    if !note.is_empty() {
+        ui.label(note);
+    }
+    if let Purpose::Thicken(thickness) = purpose {
+        ui.horizontal(|ui| {
+            let label = ui.label("Thickness");
+            let value = egui::DragValue::new(thickness).range(0.01..=100.0).speed(0.05).suffix(" mm");
+            ui.add(value).labelled_by(label.id);
+        });
+    }
+    let label = ui.label("Path");
+    let field = ui.add(egui::TextEdit::singleline(text).desired_width(f32::INFINITY)).labelled_by(label.id);
+    // Asked before the field takes the keyboard again.
+    let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
+    if ui.memory(|m| m.focused().is_none()) {
+        field.request_focus();
+    }
+    let mut chosen = None;
+    if matches!(purpose, Purpose::Open) {
+        chosen = browse(ui, text, recent);
+    }
+    let target = PathBuf::from(text.trim());
+    let mut answer = Answer::None;
+    let is_over = matches!(purpose, Purpose::SaveAs(_) | Purpose::Thicken(_)) && target.is_file();
+    if matches!(purpose, Purpose::SaveAs(_)) && kind_of_name(&target) == FileKind::Template {
+        ui.label("A .json holds the template alone: without the body, loose edges and drawn curves.");
+    }
+    ui.horizontal(|ui| {
+        let text = if is_over { format!("{button} over the file that is there") } else { button.to_owned() };
+        if ui.button(text).clicked() || entered && !is_over {
+            answer = Answer::Path(purpose.clone(), target.clone());
+        }
+        if ui.button("Cancel").clicked() {
+            answer = Answer::Close;
+        }
+    });
+    match chosen {
+        Some(path) => Answer::Path(purpose.clone(), path),
+        None => answer,
+    }
+}
+
+/// Recent files and what lies in the folder; a click opens a file or goes into a folder.
+fn browse(ui: &mut egui::Ui, text: &mut String, recent: &[PathBuf]) -> Option<PathBuf> {
+    let mut chosen = None;
+    let typed = PathBuf::from(text.trim());
+    let folder = if text.ends_with(std::path::MAIN_SEPARATOR) || typed.is_dir() {
+        typed
+    } else {
+        typed.parent().map(Path::to_owned).unwrap_or_default()
+    };
+    egui::ScrollArea::vertical().max_height(300.0).auto_shrink([false, true]).show(ui, |ui| {
+        if !recent.is_empty() {
+            ui.strong("Recent");
+            for path in recent {
+                if ui.selectable_label(false, path.display().to_string()).clicked() {
+                    chosen = Some(path.clone());
+                }
+            }
+        }
+        ui.strong(folder.display().to_string());
+        let into = |folder: &Path| format!("{}{}", folder.display(), std::path::MAIN_SEPARATOR);
+        if let Some(above) = folder.parent()
+            && ui.selectable_label(false, "…/").on_hover_text("The folder above").clicked()
+        {
+            *text = into(above);
+        }
+        let (folders, files) = files::listing(&folder);
+        let name = |p: &Path| p.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+        for path in folders {
+            if ui.selectable_label(false, format!("{}/", name(&path))).clicked() {
+                *text = into(&path);
+            }
+        }
+        for path in files {
+            if ui.selectable_label(false, name(&path)).clicked() {
+                chosen = Some(path);
+            }
+        }
+    });
+    chosen
+}
+
+pub(crate) fn keys(ui: &mut egui::Ui) -> Answer {
+    ui.heading("Keys");
+    egui::ScrollArea::vertical().max_height(480.0).show(ui, |ui| {
+        egui::Grid::new("keys").num_columns(3).striped(true).show(ui, |ui| {
+            for action in actions() {
+                if action.shortcut.is_none() {
+                    continue;
+                }
+                ui.monospace(action.keys(ui.ctx()));
+                ui.label(&action.text);
+                ui.weak(&action.hint);
+                ui.end_row();
+            }
+            for (hand, what) in [
+                ("right or middle drag", "turn the eye about what is under the pointer"),
+                ("Shift + the same", "move the eye across"),
+                ("wheel", "nearer and farther"),
+                ("Shift + click", "add to the selection, or take out of it"),
+            ] {
+                ui.monospace(hand);
+                ui.label(what);
+                ui.end_row();
+            }
+        });
+    });
+    if ui.button("Close").clicked() { Answer::Close } else { Answer::None }
+}
