@@ -111,6 +111,24 @@ const ROWS: &[Row] = &[
     (Menu::File, "Thicken …", None, "The garment as a solid of some thickness, into a file", |d, _, _| {
         d.prompt_thicken()
     }),
+    (
+        Menu::File,
+        "Mid-surface of a solid …",
+        None,
+        "The surface halfway between the walls of a thin solid, from file to file",
+        |d, _, _| {
+            d.prompt_deflate();
+        },
+    ),
+    (
+        Menu::File,
+        "Flat plates of a sheet …",
+        None,
+        "A folded sheet as plates with bend lines, from file to file",
+        |d, _, _| {
+            d.prompt_unfold();
+        },
+    ),
     (Menu::File, "Quit", Some((CTRL, Key::Q)), "Close the window", |d, _, _| d.ask(Next::Quit)),
     (Menu::Edit, "Undo", Some((CTRL, Key::Z)), "Take the last change back", |d, _, _| {
         d.command(Command::Undo)
@@ -154,7 +172,9 @@ const ROWS: &[Row] = &[
             d.edit(Edit::AutomaticJoints);
         },
     ),
-    (Menu::Edit, "Stop building", None, "Stop what is being built in the background", |d, _, _| d.stop()),
+    (Menu::Edit, "Stop building", None, "Stop what is being built or made in the background", |d, _, _| {
+        d.stop()
+    }),
     (
         Menu::Select,
         "Select all",

@@ -299,6 +299,11 @@ impl Designer {
     }
 
     pub(crate) fn stop(&mut self) {
+        if let Some(job) = &self.file_job {
+            // What it has in hand it still says.
+            job.stop();
+            return;
+        }
         self.builder.cancel();
         self.export_to = None;
         self.notices.say("stopped; the garment shown is that of an earlier design until the next change");

@@ -60,15 +60,20 @@ pub(crate) fn path(
         Purpose::SaveAs(_) => ("Save as", "Save"),
         Purpose::Export => ("Export all files", "Export"),
         Purpose::Thicken(_) => ("Thicken the garment to a solid", "Thicken"),
+        Purpose::Deflate(None) => ("The mid-surface of which solid?", "Next"),
+        Purpose::Deflate(Some(_)) => ("Write the mid-surface", "Make the mid-surface"),
+        Purpose::Unfold(_, None) => ("Which sheet is laid flat?", "Next"),
+        Purpose::Unfold(_, Some(_)) => ("Draw the flat plates", "Lay it flat"),
     };
     ui.heading(heading);
     if !note.is_empty() {
         ui.label(note);
     }
-    if let Purpose::Thicken(thickness) = purpose {
+    let least = if matches!(purpose, Purpose::Thicken(_)) { 0.01 } else { 0.0 };
+    if let Purpose::Thicken(thickness) | Purpose::Unfold(thickness, Some(_)) = purpose {
         ui.horizontal(|ui| {
             let label = ui.label("Thickness");
-            let value = egui::DragValue::new(thickness).range(0.01..=100.0).speed(0.05).suffix(" mm");
+            let value = egui::DragValue::new(thickness).range(least..=100.0).speed(0.05).suffix(" mm");
             ui.add(value).labelled_by(label.id);
         });
     }
@@ -80,12 +85,12 @@ pub(crate) fn path(
         field.request_focus();
     }
     let mut chosen = None;
-    if matches!(purpose, Purpose::Open) {
+    if purpose.reads() {
         chosen = browse(ui, text, recent);
     }
     let target = PathBuf::from(text.trim());
     let mut answer = Answer::None;
-    let is_over = matches!(purpose, Purpose::SaveAs(_) | Purpose::Thicken(_)) && target.is_file();
+    let is_over = !purpose.reads() && target.is_file();
     if matches!(purpose, Purpose::SaveAs(_)) && kind_of_name(&target) == FileKind::Template {
         ui.label("A .json holds the template alone: without the body, loose edges and drawn curves.");
     }
@@ -113,7 +118,9 @@ fn browse(ui: &mut egui::Ui, text: &mut String, recent: &[PathBuf]) -> Option<Pa
     } else {
         typed.parent().map(Path::to_owned).unwrap_or_default()
     };
-    egui::ScrollArea::vertical().max_height(300.0).auto_shrink([false, true]).show(ui, |ui| {
+    // The buttons below stay in sight in a low window.
+    let height = (ui.ctx().content_rect().height() - 250.0).clamp(60.0, 300.0);
+    egui::ScrollArea::vertical().max_height(height).auto_shrink([false, true]).show(ui, |ui| {
         if !recent.is_empty() {
             ui.strong("Recent");
             for path in recent {

@@ -5,10 +5,7 @@ use std::time::Instant;
 
 use design::draft::{BodySource, Draft, FileKind, History, Mesh, journal};
 use design::regenerate::{Artifact, Regenerated};
-use design::thicken::{Settings, ThicknessWish, thicken};
-use mesh_kernel::TriMesh;
 use mesh_kernel::files::{Format, write_atomically};
-use sheet::thicken::{Corners, Nobody, Side};
 use template::Template;
 
 /// What was in a file.
@@ -108,29 +105,6 @@ pub(crate) fn export(made: &Regenerated, folder: &Path) -> Result<String, String
     let mut made = made.clone();
     made.write(folder, &Artifact::DEFAULT, Instant::now()).map_err(|e| e.to_string())?;
     Ok(format!("exported to {}", folder.display()))
-}
-
-/// Makes a solid of the garment, `thickness` mm thick, and writes it.
-///
-/// # Errors
-/// One sentence.
-pub(crate) fn thicken_to(mesh: &TriMesh, thickness: f64, path: &Path) -> Result<String, String> {
-    let format =
-        Format::of_path(path).ok_or("the solid's name must end in .obj, .ply, .stl, .off or .glb")?;
-    let settings = Settings {
-        thickness: ThicknessWish::Patches { elsewhere: Some(thickness), named: Vec::new() },
-        side: Side::Both,
-        corners: Corners::default(),
-        chord: None,
-        mitre_limit: None,
-        unit: Some(1.0),
-        read_from: None,
-        format,
-    };
-    let made = thicken(mesh, &settings, &Nobody).map_err(|e| e.to_string())?;
-    write_atomically(path, &made.bytes)
-        .map_err(|e| format!("{} could not be written: {e}", path.display()))?;
-    Ok(format!("solid of {} triangles written to {}", made.report.faces, path.display()))
 }
 
 /// Templates that come with the program.

@@ -88,6 +88,8 @@ impl Designer {
                     }
                     self.model.cloth = cloth;
                 }
+                // The whole build that follows says so too.
+                Err(_) if !done.is_whole && self.builder.step().is_some() => {}
                 Err(e) => {
                     self.export_to = None;
                     self.problem(e);

@@ -14,6 +14,8 @@ use mesh_kernel::TriMesh;
 use mesh_kernel::query::RayCaster;
 use rayon::prelude::*;
 
+use crate::workshop::Stop;
+
 /// A body, ready for everything.
 pub(crate) struct Body {
     source: Arc<BodySource>,
@@ -72,8 +74,8 @@ pub(crate) struct Builder {
     rough: Sender<Order>,
     receiver: Receiver<Done>,
     shared: Arc<Shared>,
-    /// The last result that was taken.
-    taken: u64,
+    /// The last result that was taken, and whether it was whole.
+    taken: (u64, bool),
     waiting: Option<u64>,
 }
 
@@ -99,7 +101,7 @@ impl Builder {
             });
             sender
         };
-        Self { whole: worker(true), rough: worker(false), receiver, shared, taken: 0, waiting: None }
+        Self { whole: worker(true), rough: worker(false), receiver, shared, taken: (0, false), waiting: None }
     }
 
     /// Previews this draft.
@@ -109,10 +111,13 @@ impl Builder {
         let _ = self.rough.send(order);
     }
 
-    /// Builds this draft whole.
+    /// Builds this draft whole; where the body is at hand a preview comes first.
     pub(crate) fn build(&mut self, draft: &Arc<Draft>, context: &Context) {
         let order = self.order(draft, context);
         self.waiting = Some(order.generation);
+        if self.shared.has_body(&draft.body) {
+            let _ = self.rough.send(order.clone());
+        }
         let _ = self.whole.send(order);
     }
 
@@ -136,10 +141,10 @@ impl Builder {
     /// The newest result, when there is one that is newer than the last.
     pub(crate) fn take(&mut self) -> Option<Done> {
         let taken = self.taken;
-        let newest =
-            self.receiver.try_iter().filter(|d| d.generation > taken).max_by_key(|d| d.generation)?;
-        self.taken = newest.generation;
-        if self.waiting.is_some_and(|w| w <= newest.generation) {
+        let rank = |d: &Done| (d.generation, d.is_whole);
+        let newest = self.receiver.try_iter().filter(|d| rank(d) > taken).max_by_key(rank)?;
+        self.taken = rank(&newest);
+        if self.waiting.is_some_and(|w| w < newest.generation || w == newest.generation && newest.is_whole) {
             self.waiting = None;
         }
         Some(newest)
@@ -175,6 +180,14 @@ impl Shared {
             Err(e) => Err(e.to_string()),
         };
         Some(Done { generation, is_whole, body: Some(body), cloth })
+    }
+
+    fn has_body(&self, source: &Arc<BodySource>) -> bool {
+        let bodies = self.bodies.lock().unwrap_or_else(PoisonError::into_inner);
+        bodies
+            .iter()
+            .flatten()
+            .any(|b| !b.is_coarse && (Arc::ptr_eq(&b.source, source) || b.source == *source))
     }
 
     /// The body of a source: one that is at hand, or one that is made. A preview takes a whole one where there is one.
@@ -220,6 +233,7 @@ fn rough(draft: &Draft, body: &Body) -> Result<Cloth, BuildError> {
 pub(crate) struct FileJob {
     pub(crate) what: String,
     receiver: Receiver<Result<String, String>>,
+    stop: Stop,
 }
 
 impl FileJob {
@@ -227,16 +241,23 @@ impl FileJob {
     pub(crate) fn start(
         what: String,
         context: &Context,
-        work: impl FnOnce() -> Result<String, String> + Send + 'static,
+        work: impl FnOnce(&Stop) -> Result<String, String> + Send + 'static,
     ) -> Self {
         let (sender, receiver) = channel();
         let context = context.clone();
+        let stop = Stop::default();
+        let asked = stop.clone();
         std::thread::spawn(move || {
             // Nobody listens any more when the window is closed.
-            let _ = sender.send(work());
+            let _ = sender.send(work(&asked));
             context.request_repaint();
         });
-        Self { what, receiver }
+        Self { what, receiver, stop }
+    }
+
+    /// Asks it to end; it says so itself when it has.
+    pub(crate) fn stop(&self) {
+        self.stop.now();
     }
 
     /// What it came to, once.

@@ -27,6 +27,7 @@ mod session;
 mod tools;
 mod units;
 mod view;
+mod workshop;
 
 pub use designer::{Designer, Start};
 

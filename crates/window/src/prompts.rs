@@ -13,6 +13,7 @@ use crate::files::{self, LIBRARY, Opened};
 use crate::jobs::FileJob;
 use crate::notices::Notice;
 use crate::session::{OnDisk, Session};
+use crate::workshop::{self, Stop};
 
 /// What is done once unsaved work is safe or given up.
 #[derive(Clone, Debug)]
@@ -30,7 +31,19 @@ pub(crate) enum Purpose {
     /// With what to do then.
     SaveAs(Option<Next>),
     Export,
+    /// By how many millimetres.
     Thicken(f64),
+    /// A mid-surface of a solid: of which, once that is known.
+    Deflate(Option<PathBuf>),
+    /// Flat plates of a sheet: how thick it is, mm, and which.
+    Unfold(f64, Option<PathBuf>),
+}
+
+impl Purpose {
+    /// Whether a file that is there is asked for.
+    pub(crate) fn reads(&self) -> bool {
+        matches!(self, Self::Open | Self::Deflate(None) | Self::Unfold(_, None))
+    }
 }
 
 /// A question.
@@ -149,11 +162,26 @@ impl Designer {
     }
 
     pub(crate) fn prompt_open(&mut self) {
+        self.prompt_source(Purpose::Open, String::new());
+    }
+
+    pub(crate) fn prompt_deflate(&mut self) {
+        let note = "A closed solid of thin walls: .obj, .ply, .stl, .off or .glb.".to_owned();
+        self.prompt_source(Purpose::Deflate(None), note);
+    }
+
+    pub(crate) fn prompt_unfold(&mut self) {
+        let note = "A folded sheet, or a script of modelling commands (.json).".to_owned();
+        self.prompt_source(Purpose::Unfold(0.0, None), note);
+    }
+
+    /// Asks for a file that is there.
+    fn prompt_source(&mut self, purpose: Purpose, note: String) {
         let own = self.session.file.as_ref().and_then(|f| f.path.parent()).map(Path::to_owned);
         let folder = own.and_then(|f| std::path::absolute(f).ok()).or_else(|| std::env::current_dir().ok());
         let folder = folder.unwrap_or_default();
         let text = format!("{}{}", folder.display(), std::path::MAIN_SEPARATOR);
-        self.prompt = Some(Prompt::Path { purpose: Purpose::Open, text, note: String::new() });
+        self.prompt = Some(Prompt::Path { purpose, text, note });
     }
 
     pub(crate) fn prompt_save_as(&mut self, note: Option<String>) {
@@ -189,7 +217,7 @@ impl Designer {
         let made = self.model.cloth.as_ref().and_then(|c| c.made.clone()).filter(|_| self.is_built());
         match made {
             Some(made) => {
-                let work = move || files::export(&made, &folder);
+                let work = move |_: &Stop| files::export(&made, &folder);
                 self.file_job = Some(FileJob::start("exporting".to_owned(), context, work));
             }
             None => {
@@ -204,8 +232,30 @@ impl Designer {
 
     fn thicken(&mut self, thickness: f64, path: PathBuf, context: &egui::Context) {
         let Some(cloth) = self.model.cloth.clone() else { return };
-        let work = move || files::thicken_to(&cloth.mesh, thickness, &path);
+        let work = move |stop: &Stop| workshop::thicken_to(&cloth.mesh, thickness, &path, stop);
         self.file_job = Some(FileJob::start("thickening".to_owned(), context, work));
+    }
+
+    /// The solid is known: where its mid-surface goes; both are known: makes it.
+    fn deflate(&mut self, source: Option<PathBuf>, path: PathBuf, context: &egui::Context) {
+        let Some(solid) = source else {
+            let beside = named_like(&path, "-mid.obj");
+            let note = "The thickness goes into a .thickness.json beside it.".to_owned();
+            return self.prompt_path(Purpose::Deflate(Some(path)), &beside, note);
+        };
+        let work = move |stop: &Stop| workshop::deflate_to(&solid, &path, stop);
+        self.file_job = Some(FileJob::start("looking for the mid-surface".to_owned(), context, work));
+    }
+
+    /// The sheet is known: where its plates go; both are known: lays it flat.
+    fn unfold(&mut self, thickness: f64, source: Option<PathBuf>, path: PathBuf, context: &egui::Context) {
+        let Some(sheet) = source else {
+            let beside = named_like(&path, "-flat.dxf");
+            let note = "A drawing, .dxf or .svg. Without a thickness the sheet is folded sharply.".to_owned();
+            return self.prompt_path(Purpose::Unfold(thickness, Some(path)), &beside, note);
+        };
+        let work = move |_: &Stop| workshop::unfold_to(&sheet, thickness, &path);
+        self.file_job = Some(FileJob::start("laying the sheet flat".to_owned(), context, work));
     }
 
     fn recover(&mut self, recovery: &Recovery) {
@@ -278,7 +328,15 @@ impl Designer {
                 }
                 Purpose::Export => self.export(path, context),
                 Purpose::Thicken(thickness) => self.thicken(thickness, path, context),
+                Purpose::Deflate(source) => self.deflate(source, path, context),
+                Purpose::Unfold(thickness, source) => self.unfold(thickness, source, path, context),
             },
         }
     }
+}
+
+/// A file beside another, with its name and another ending.
+fn named_like(path: &Path, ending: &str) -> PathBuf {
+    let stem = path.file_stem().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+    path.with_file_name(format!("{stem}{ending}"))
 }

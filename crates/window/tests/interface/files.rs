@@ -127,3 +127,56 @@ fn work_that_a_killed_window_left_is_offered_and_comes_back() {
     let kept = own.iter().find(|p| p.extension().is_some_and(|e| e == "journal")).expect("a journal");
     assert_eq!(journal::replay(&std::fs::read(kept).unwrap()).unwrap().draft(), history.draft());
 }
+
+#[test]
+fn solids_and_sheets_go_from_file_to_file() {
+    let mut window = Window::new(Draft::empty());
+    let tray = format!("{}/../../samples/desk-tray.obj", env!("CARGO_MANIFEST_DIR"));
+    let at = |window: &Window, name: &str| window.folder.path().join(name);
+    let said = |window: &mut Window, what: &str| {
+        window.wait(|d| d.message().is_some_and(|m| m.contains(what)));
+        window.message()
+    };
+    // A folded sheet is laid flat.
+    window.action("Flat plates of a sheet");
+    window.write("Path", &tray);
+    // The list of the folder comes, and the dialog finds its size.
+    window.steps();
+    window.steps();
+    window.click("Next");
+    let drawing = at(&window, "tray.dxf");
+    window.write("Path", &drawing.display().to_string());
+    window.click("Lay it flat");
+    let text = said(&mut window, "plates with");
+    assert!(text.contains("bends"), "{text}");
+    assert!(std::fs::read_to_string(&drawing).unwrap().trim_end().ends_with("EOF"));
+    // A solid of the same sheet has it for its middle.
+    let sheet = mesh_kernel::files::read(Path::new(&tray)).unwrap();
+    let options = sheet::thicken::ThickenOptions::new(2.0);
+    let thick = sheet::thicken::thicken(&sheet, &options, &sheet::thicken::Nobody).unwrap();
+    let format = mesh_kernel::files::Format::Obj;
+    let solid = at(&window, "tray-solid.obj");
+    std::fs::write(&solid, mesh_kernel::files::to_bytes(format, &thick.solid, &Default::default())).unwrap();
+    window.action("Mid-surface of a solid");
+    window.write("Path", &solid.display().to_string());
+    window.steps();
+    window.steps();
+    window.click("Next");
+    window.click("Make the mid-surface");
+    let text = said(&mut window, "mid-surface of");
+    assert!(text.contains("10 patches"), "{text}");
+    assert!(at(&window, "tray-solid-mid.obj").is_file());
+    let thickness = std::fs::read_to_string(at(&window, "tray-solid-mid.thickness.json")).unwrap();
+    assert!(thickness.starts_with('['), "{thickness:.40}");
+    // What is no solid is told, and nothing is written.
+    window.action("Mid-surface of a solid");
+    window.write("Path", &tray);
+    window.steps();
+    window.steps();
+    window.click("Next");
+    window.write("Path", &at(&window, "none.obj").display().to_string());
+    window.click("Make the mid-surface");
+    said(&mut window, "open");
+    assert!(!at(&window, "none.obj").exists());
+    assert_eq!(*window.draft(), Draft::empty());
+}
