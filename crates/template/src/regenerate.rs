@@ -9,7 +9,7 @@ use mesh_kernel::TriMesh;
 use reference::{FeatureCurve, Features};
 
 use crate::Template;
-use crate::collision::Drape;
+use crate::collision::{CollisionReport, Drape};
 use crate::construct::{Construction, Method};
 use crate::ease::{Secant, body_girth, garment_girth};
 use crate::error::TemplateError;
@@ -38,6 +38,9 @@ pub type Progress<'a> = dyn Fn(f64, &str) + Sync + 'a;
 pub struct RegenerateOptions<'a> {
     /// Splits instead of the template's `level`.
     pub levels: Option<u8>,
+    /// For the eye while something is dragged: nodes keep off the body, but triangles are not looked through for crossings, and
+    /// [`Garment::collision`] stays empty.
+    pub preview: bool,
     /// How surfaces are made smooth.
     pub method: Method,
     /// Set it from elsewhere to stop the work.
@@ -239,6 +242,9 @@ pub fn regenerate(
         round += 1;
         let settled = round >= rounds || step_eases(&mut eases, &faces, &positions, FINE_AIM);
         clock.stage(0.7 + 0.03 * round as f64, "fairing")?;
+        if settled && options.preview {
+            break (positions, moved);
+        }
         if settled {
             let more = fine.drape.push_out(&mut positions, usize::MAX, Some(crossings))?;
             moved.iter_mut().zip(more).for_each(|(m, v)| *m += v);
@@ -248,7 +254,10 @@ pub fn regenerate(
             break (positions, moved);
         }
     };
-    let mut collision = fine.drape.report(&positions, &moved, crossings);
+    let mut collision = CollisionReport::default();
+    if !options.preview {
+        collision = fine.drape.report(&positions, &moved, crossings);
+    }
     let mut ease = BTreeMap::new();
     for (level, faces) in eases.iter().zip(&faces) {
         let Some(girth) = garment_girth(&positions, faces, level.curve) else { continue };
@@ -268,7 +277,7 @@ pub fn regenerate(
     }
     drop(fine);
     drop(rough);
-    if let Some(tolerance) = file.adaptive {
+    if let Some(tolerance) = file.adaptive.filter(|_| !options.preview) {
         // Wider triangles may cut into the body where narrow ones did not: those are split.
         let crossing = |faces: &[[u32; 3]]| {
             let mut found = vec![false; faces.len()];

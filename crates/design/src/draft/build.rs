@@ -63,6 +63,7 @@ pub fn preview(draft: &Draft, on: &OnBody, levels: u8, cancel: &AtomicBool) -> R
         levels: Some(levels),
         cancel: Some(cancel),
         prepared: Some(&on.prepared),
+        preview: true,
         ..RegenerateOptions::default()
     };
     Ok(template::regenerate(&template, &reference, &options)?)
