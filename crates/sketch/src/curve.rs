@@ -300,23 +300,40 @@ impl Curve {
         self.divide(middle, b, tolerance, depth + 1, out);
     }
 
-    /// The point nearest to another: wherever 64 samples come near it, refined by golden section. For snapping.
+    /// The point nearest to another, for snapping: every part of the curve that may come nearer than what was found, for it is
+    /// no longer than its chord and a little, is halved some times and searched by golden section.
     pub fn nearest(&self, p: DVec2) -> NearestPoint {
         const SAMPLES: u32 = 64;
-        let distance = |t: f64| self.point(t).distance_squared(p);
-        let at = |k: u32| f64::from(k) / f64::from(SAMPLES);
-        let samples: Vec<f64> = (0..=SAMPLES).map(|k| distance(at(k))).collect();
-        let refined = (0..=SAMPLES).filter(|&k| {
-            let here = samples[k as usize];
-            let beside = [k.checked_sub(1), Some(k + 1)].into_iter().flatten();
-            beside.filter_map(|j| samples.get(j as usize)).all(|d| here <= *d)
-        });
-        let best = refined
-            .map(|k| golden(distance, at(k.saturating_sub(1)), at((k + 1).min(SAMPLES))))
-            .min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
-        let t = best.unwrap_or(0.0);
-        let at = self.point(t);
-        NearestPoint { t, at, distance: at.distance(p) }
+        /// Share of the curve's length within which parts are their chords.
+        const CHORD: f64 = 1e-4;
+        const HALVINGS: u32 = 5;
+        let distance = |t: f64| self.point(t).distance(p);
+        let mut at: Vec<f64> = (0..=SAMPLES).map(|k| f64::from(k) / f64::from(SAMPLES)).collect();
+        let slack = CHORD * self.length();
+        if matches!(self, Self::Bezier { .. } | Self::Spline { .. }) {
+            at.extend(self.parameters(slack));
+            at.sort_by(f64::total_cmp);
+            at.dedup();
+        }
+        let mut best = at.iter().copied().min_by(|a, b| distance(*a).total_cmp(&distance(*b))).unwrap_or(0.0);
+        let mut pending: Vec<(f64, f64, u32)> = at.windows(2).map(|w| (w[0], w[1], HALVINGS)).collect();
+        while let Some((a, b, halvings)) = pending.pop() {
+            let longest = 1.1 * self.point(a).distance(self.point(b)) + 4.0 * slack;
+            if distance(a) + distance(b) - longest > 2.0 * distance(best) {
+                continue;
+            }
+            if halvings > 0 {
+                let middle = (a + b) / 2.0;
+                pending.extend([(a, middle, halvings - 1), (middle, b, halvings - 1)]);
+            } else {
+                let t = golden(|t| distance(t).powi(2), a, b);
+                if distance(t) < distance(best) {
+                    best = t;
+                }
+            }
+        }
+        let at = self.point(best);
+        NearestPoint { t: best, at, distance: at.distance(p) }
     }
 }
 

@@ -35,6 +35,9 @@ pub use crossings::{Crossing, crossings};
 pub use rules::Rule;
 pub use snap::{Snap, SnapKind, SnapOptions};
 
+/// A shape has to be longer than this, mm: a millionth, which no tool can cut.
+const SHORTEST: f64 = 1e-6;
+
 /// A point of a drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct PointId(u32);
@@ -226,7 +229,7 @@ impl Drawing {
             }
         };
         // Written so that a length that is no number is refused too.
-        if curve.length() > 0.0 { Ok(curve) } else { Err(SketchError::NoLength { curve: 1 }.into()) }
+        if curve.length() > SHORTEST { Ok(curve) } else { Err(SketchError::NoLength { curve: 1 }.into()) }
     }
 
     /// The shapes at a point, with the end (0 or 1) that they have there.
