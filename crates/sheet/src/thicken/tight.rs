@@ -28,7 +28,7 @@ const ONE_POINT: f64 = 0.4;
 const LEAST_ONE_POINT: f64 = ONE_POINT / 64.0;
 /// How much farther from a node than its depth a common point may be, as a share: as far as the offset point of a fold that
 /// is just smooth (1/cos 15°), for nearer than that offsets do meet about the axis of a bend drawn with few faces.
-const BEYOND: f64 = 0.0353;
+pub(super) const BEYOND: f64 = 0.0353;
 /// How far a common point goes on past the axis, as a share of what the depth lets it: neighbours' material overlaps there.
 const PAST: f64 = 0.5;
 

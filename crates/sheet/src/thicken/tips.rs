@@ -3,10 +3,10 @@
 //! About the neck of a hyperboloid or the hole of a torus a ring of tight faces ends in one point of the axis, whereas the
 //! faces between two of them, which narrow towards the ring, are not turned over: their offsets run a little past the axis,
 //! and there all of them cross each with each, which a union resolves in a time that grows with the cube of their number.
-//! The planes of such offsets meet in one point. That point is in all of them: moved there, they enclose the same and do not
+//! The planes of such offsets meet in one point, behind the tips. It is in all of them: moved back there, they enclose the same and do not
 //! cross.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use glam::{DMat3, DVec3};
 
@@ -14,7 +14,7 @@ use super::clean_sheet::CleanSheet;
 use super::entities::{Entities, next, previous, use_of};
 use super::half_prism::HalfPrism;
 use super::offset_point::{Plane, meeting};
-use super::tight::{End, nearer_and_nearer};
+use super::tight::{BEYOND, End, nearer_and_nearer};
 
 /// Farthest that a plane may miss the common point, in depths.
 const MISS: f64 = 0.01;
@@ -76,7 +76,21 @@ pub(super) fn unite_tips(
             return false;
         }
         let place = middle + met.x;
-        let moved = |p: u32| cluster.iter().any(|&i| ends[i as usize].point == p);
+        // Tips go back to where they meet; those that end before it are no tips, and would go where no material should be.
+        let is_reached = cluster.iter().all(|&i| {
+            let end = &ends[i as usize];
+            let side = |c: u32| {
+                let to = |d: u32| sheet.positions[entities.node[d as usize] as usize] - end.node;
+                to(next(c)).normalize_or_zero() + to(previous(c)).normalize_or_zero()
+            };
+            let inward: DVec3 = of_point[&end.point].iter().map(|&c| side(c)).sum();
+            (place - end.at).dot(inward.normalize_or_zero()) >= -BEYOND * end.depth
+        });
+        if !is_reached {
+            return false;
+        }
+        let tips: HashSet<u32> = cluster.iter().map(|&i| ends[i as usize].point).collect();
+        let moved = |p: u32| tips.contains(&p);
         // What has been made one before stays within its planes too.
         let fits = own().all(|c| {
             let u = use_of(c);
