@@ -3,8 +3,8 @@
 //! About the neck of a hyperboloid or the hole of a torus a ring of tight faces ends in one point of the axis, whereas the
 //! faces between two of them, which narrow towards the ring, are not turned over: their offsets run a little past the axis,
 //! and there all of them cross each with each, which a union resolves in a time that grows with the cube of their number.
-//! The planes of such offsets meet in one point, behind the tips. It is in all of them: moved back there, they enclose the same and do not
-//! cross.
+//! The planes of such offsets meet in one point, behind the tips. It is in all of them: moved back there, they enclose the
+//! same and do not cross.
 
 use std::collections::{HashMap, HashSet};
 
