@@ -11,9 +11,10 @@ use rayon::prelude::*;
 
 use super::assemble::{Sheet, Source};
 use super::exact::Exact;
-use super::remesh::{Nodes, Remesh};
+use super::remesh::{Diagonal, Nodes, Remesh};
 use super::segments::Segments;
 use super::solid::Solid;
+use super::twins::Twins;
 use super::walls::Walls;
 
 /// An edge is split if its middle is off by more than this share of the thickness.
@@ -92,6 +93,7 @@ struct Follow<'a> {
     segments: &'a Segments,
     walls: &'a Walls,
     exact: &'a Exact,
+    twins: &'a Twins,
 }
 
 /// Refines the curved pieces of a sheet; with an edge length, meshes them anew to about that. O(n log n) a round.
@@ -101,12 +103,13 @@ pub(super) fn follow(
     segments: &Segments,
     walls: &Walls,
     exact: &Exact,
+    twins: &Twins,
     edge_length: Option<f64>,
 ) {
     if !sheet.sources.iter().any(|s| matches!(s, Source::Facet(_))) {
         return;
     }
-    let follow = Follow { remesh: Remesh { solid }, solid, segments, walls, exact };
+    let follow = Follow { remesh: Remesh { solid }, solid, segments, walls, exact, twins };
     match edge_length {
         Some(length) => follow.mesh_to(sheet, length),
         None => follow.refine(sheet),
@@ -119,10 +122,12 @@ impl Follow<'_> {
     fn refine(&self, sheet: &mut Sheet) {
         let most = MOST_TIMES * self.solid.mesh.faces.len().max(MOST_ANYWAY);
         let short: Vec<f64> = (0..self.segments.groups.len() as u32).map(|g| self.short(g)).collect();
-        let of_face: Vec<f64> = self.segments.of_face.iter().map(|g| short[*g as usize]).collect();
+        // Faces with twins are as they should be.
+        let of = |(f, g): (u32, &u32)| if self.twins.has(f) { 0.0 } else { short[*g as usize] };
+        let of_face: Vec<f64> = (0u32..).zip(&self.segments.of_face).map(of).collect();
         for round in 0..=ROUNDS {
             self.close(sheet, &of_face);
-            self.remesh.turn(sheet, &|old, new, at| self.follows(old, new, at));
+            self.remesh.turn(sheet, &|diagonal| self.follows(diagonal));
             self.settle(sheet);
             let wanted = |look: &Look| {
                 let bend = look.off.length() / look.length;
@@ -141,18 +146,25 @@ impl Follow<'_> {
         for _ in 0..MESHINGS {
             self.split(sheet, MOST_FACES, &|look| look.length > LONG * length);
             self.close(sheet, &short);
-            self.remesh.turn(sheet, &|_, _, _| true);
+            self.remesh.turn(sheet, &|_| true);
             self.remesh.smooth(sheet);
             self.settle(sheet);
             self.name_sources(sheet);
             self.exact.settle(sheet, &self.remesh.nodes(sheet));
         }
-        self.remesh.turn(sheet, &|_, _, _| true);
+        self.remesh.turn(sheet, &|_| true);
     }
 
     /// Whether a diagonal follows the middle, or the old one does not: what both sides agree on stays as it is.
-    fn follows(&self, old: [u32; 2], new: [u32; 2], positions: &[DVec3]) -> bool {
-        let [a, b, c, d] = [old[0], old[1], new[0], new[1]].map(|v| positions[v as usize]);
+    fn follows(&self, diagonal: &Diagonal<'_>) -> bool {
+        let twins = |source: &Source| matches!(*source, Source::Facet(f) if self.twins.has(f));
+        let [f, g] = diagonal.sources;
+        if f != g && twins(&f) && twins(&g) {
+            // An edge of both sides; looks along it may meet one face above and the other below.
+            return false;
+        }
+        let ends = [diagonal.old, diagonal.new].map(|ends| ends.map(|v| diagonal.positions[v as usize]));
+        let [[a, b], [c, d]] = ends;
         let normal = (b - a).cross(d - c).normalize_or_zero();
         let off = |[p, q]: [DVec3; 2]| {
             let seen = between(self.solid, self.segments, self.walls, p.midpoint(q), normal)?;

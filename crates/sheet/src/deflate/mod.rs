@@ -26,6 +26,7 @@ mod solid;
 mod star;
 mod thickness;
 mod topology;
+mod twins;
 mod walls;
 
 pub use error::DeflateError;
@@ -52,6 +53,7 @@ use sides::kept_groups;
 use solid::Solid;
 use thickness::thicknesses;
 use topology::Topology;
+use twins::Twins;
 use walls::Walls;
 
 /// A solid is thin if this share of its skin has a partner.
@@ -175,7 +177,8 @@ pub fn deflate(
         }
     }
     let corners = middles.at_corners(&solid, &segments, &walls);
-    let replacement = Replacement::new(&solid, &segments, &walls, &middles, &blends, &corners);
+    let twins = Twins::new(&solid, &walls);
+    let replacement = Replacement::new(&solid, &segments, &walls, &middles, &blends, &corners, &twins);
     let nodes = 0..solid.mesh.positions.len() as u32;
     let blended = nodes.map(|v| !blends.behind(v).is_empty()).collect();
     let moved = Moved { positions: replacement.positions(), soft: replacement.beside_facets(), blended };
@@ -185,7 +188,7 @@ pub fn deflate(
     let stitch = |gone: &[bool]| {
         let kept: Vec<bool> = kept.iter().zip(gone).map(|(kept, gone)| *kept && !gone).collect();
         let mut sheet = assemble(&solid, &segments, &walls, &middles, gone, &kept, &moved, options);
-        follow(&mut sheet, &solid, &segments, &walls, &exact, options.edge_length);
+        follow(&mut sheet, &solid, &segments, &walls, &exact, &twins, options.edge_length);
         let thickness = thicknesses(&sheet, &solid, &segments, &walls, &middles, &corners, on_exact);
         let patched = patched(&sheet, &segments);
         let crossing = Crossings::new(&patched.mesh).self_crossing().len();

@@ -27,8 +27,19 @@ const TURNS: usize = 8;
 /// A node moves this share of the way to the middle of its faces.
 const EASE: f64 = 0.5;
 
-/// Whether a diagonal may become another; given their nodes and where all nodes are.
-pub(super) type May<'a> = dyn Fn([u32; 2], [u32; 2], &[DVec3]) -> bool + Sync + 'a;
+/// A diagonal that could turn.
+pub(super) struct Diagonal<'a> {
+    /// What the faces beside it came from.
+    pub(super) sources: [Source; 2],
+    /// Its nodes as it is, and as it would be.
+    pub(super) old: [u32; 2],
+    pub(super) new: [u32; 2],
+    /// Where all nodes are.
+    pub(super) positions: &'a [DVec3],
+}
+
+/// Whether a diagonal may turn.
+pub(super) type May<'a> = dyn Fn(&Diagonal<'_>) -> bool + Sync + 'a;
 
 /// A sheet with what its faces came from.
 pub(super) struct Remesh<'a> {
@@ -197,7 +208,9 @@ impl Remesh<'_> {
         let sound = sound && fold(corners) > before.min(FOLD.cos());
         // A fold that the solid has not goes in any case.
         let unasked = before < FOLD.cos() && m.dot(n) > FOLD.cos();
-        (sound && (unasked || may([a, b], [c, d], &mesh.positions))).then_some((excess, pair, turned))
+        let sources = pair.map(|f| sheet.sources[f as usize]);
+        let diagonal = Diagonal { sources, old: [a, b], new: [c, d], positions: &mesh.positions };
+        (sound && (unasked || may(&diagonal))).then_some((excess, pair, turned))
     }
 
     /// Moves nodes inside of curved pieces within the surface to the middle of their faces. O(n).

@@ -10,6 +10,7 @@ use super::plane::Plane;
 use super::segments::Segments;
 use super::solid::Solid;
 use super::star::Star;
+use super::twins::{Twins, midpoint};
 use super::walls::Walls;
 
 /// Two planes meet in a line if the sine of the angle between them is more than this.
@@ -25,6 +26,8 @@ const STAY: f64 = 3e-3;
 const STAY_AGREED: f64 = 1e-4;
 /// Facets agree on a point that is this near to all of them, over the thickness.
 const AGREED: f64 = 2e-3;
+/// Halfway between twins is within this share of the thickness of all middles that meet there.
+const TWIN_OFF: f64 = 0.01;
 /// A node does not move farther than this many thicknesses for it.
 const REACH: f64 = 0.75;
 /// A chain of edges that turns by more than this, in radians, has a corner there.
@@ -39,6 +42,7 @@ pub(super) struct Replacement<'a> {
     pub(super) blends: &'a Blends,
     /// The middles at the corners of every face.
     pub(super) corners: &'a [[Option<Middle>; 3]],
+    pub(super) twins: &'a Twins,
     /// Faces at every node, with the corner: `3 face + corner`.
     star: Star,
 }
@@ -64,9 +68,10 @@ impl<'a> Replacement<'a> {
         middles: &'a Middles,
         blends: &'a Blends,
         corners: &'a [[Option<Middle>; 3]],
+        twins: &'a Twins,
     ) -> Self {
         let star = Star::new(&solid.mesh.faces, solid.mesh.positions.len());
-        Self { solid, segments, walls, middles, blends, corners, star }
+        Self { solid, segments, walls, middles, blends, corners, twins, star }
     }
 
     /// Whether each node lies beside facets and not just on planes: then it is only as exact as chords are. O(n).
@@ -156,6 +161,9 @@ impl<'a> Replacement<'a> {
         let p = self.solid.mesh.positions[v as usize];
         let mut wanted = self.wanted(v);
         let planes = independent(&wanted);
+        if let Some(middle) = self.between_twins(v, &wanted, &planes) {
+            return middle;
+        }
         let start = on_planes(p + along, &planes);
         wanted.facets.append(&mut wanted.end_facets);
         if wanted.facets.is_empty() {
@@ -163,6 +171,14 @@ impl<'a> Replacement<'a> {
         } else {
             beside_facets(start, &planes, &wanted.facets, wanted.thickness)
         }
+    }
+
+    /// Halfway to the twin of a node, if that is the middle for all that meets there.
+    fn between_twins(&self, v: u32, wanted: &Wanted, planes: &[Plane]) -> Option<DVec3> {
+        let middle = midpoint(self.solid, v, self.twins.of_node(v)?);
+        let is_near = |plane: &Plane| plane.height(middle).abs() < TWIN_OFF * wanted.thickness;
+        let sound = planes.iter().chain(wanted.facets.iter().map(|f| &f.0)).all(is_near);
+        (sound && !wanted.facets.is_empty()).then_some(middle)
     }
 
     fn wanted(&self, v: u32) -> Wanted {
