@@ -34,6 +34,13 @@ const CLOSED: f64 = 0.2;
 /// Nor do edges that are longer than this share of the mean one; equal triangles of edges e have an area of e² / 2.31.
 const SHORTER: f64 = 0.35;
 const EVEN: f64 = 2.31;
+/// Sides of faces along which the thickness changes by more than this share of it are split, if longer than that one.
+const EVEN_THICKNESS: f64 = 8e-3;
+const NARROWEST: f64 = 0.1;
+/// Rounds of it.
+const EVENINGS: usize = 2;
+/// The thickness at a corner is seen from this share of the way to the middle of the face.
+const WITHIN: f64 = 0.25;
 /// Splitting ends when there is less than one in so many edges to be split.
 const FEW: usize = 300;
 /// Rounds of splitting.
@@ -139,6 +146,51 @@ impl Follow<'_> {
                 break;
             }
         }
+        self.even_out(sheet, most);
+    }
+
+    /// Splits the side of a face along which the thickness changes most, so that one number a face says it.
+    fn even_out(&self, sheet: &mut Sheet, most: usize) {
+        for _ in 0..EVENINGS {
+            let nodes = self.remesh.nodes(sheet);
+            let side =
+                |f: u32| self.uneven_side(sheet, &nodes, f).and_then(|k| nodes.adjacency.edge_of(3 * f + k));
+            let mut split: Vec<u32> =
+                (0..sheet.faces.len() as u32).into_par_iter().filter_map(side).collect();
+            split.par_sort_unstable();
+            split.dedup();
+            if split.is_empty() || sheet.faces.len() + 2 * split.len() > most {
+                return;
+            }
+            let mut middles: BTreeMap<u32, u32> = BTreeMap::new();
+            for e in split {
+                let [p, q] = nodes.adjacency.edges()[e as usize].map(|v| sheet.positions[v as usize]);
+                sheet.positions.push(p.midpoint(q));
+                middles.insert(e, sheet.positions.len() as u32 - 1);
+            }
+            divide(sheet, &nodes, &middles);
+        }
+    }
+
+    /// The side of a curved face along which the thickness changes most, if it does so by too much.
+    fn uneven_side(&self, sheet: &Sheet, nodes: &Nodes, f: u32) -> Option<u32> {
+        self.remesh.normal(sheet, f)?;
+        let corners = nodes.mesh.corners(f);
+        let [p, q, r] = corners;
+        let normal = (q - p).cross(r - p).normalize_or_zero();
+        let middle = (p + q + r) / 3.0;
+        let seen = |k: usize| {
+            let from = corners[k].lerp(middle, WITHIN);
+            between(self.solid, self.segments, self.walls, from, normal).map(|seen| seen.thickness)
+        };
+        let thickness = [seen(0)?, seen(1)?, seen(2)?];
+        let change = |k: usize| (thickness[k] - thickness[(k + 1) % 3]).abs() / (1.0 - WITHIN);
+        let k = (0..3).max_by(|a, b| change(*a).total_cmp(&change(*b)))?;
+        let wide = corners[k].distance(corners[(k + 1) % 3]) > NARROWEST * thickness[k];
+        // What is split may not have a plane piece beside it: those end in straight lines.
+        let beside = nodes.adjacency.half_edges(nodes.adjacency.edge_of(3 * f + k as u32)?);
+        let curved = beside.iter().all(|h| self.remesh.normal(sheet, h / 3).is_some());
+        (change(k) > EVEN_THICKNESS * thickness[k] && wide && curved).then_some(k as u32)
     }
 
     fn mesh_to(&self, sheet: &mut Sheet, length: f64) {
@@ -270,14 +322,7 @@ impl Follow<'_> {
                 middles.insert(e, sheet.positions.len() as u32 - 1);
             }
         }
-        let (faces, sources) = (std::mem::take(&mut sheet.faces), std::mem::take(&mut sheet.sources));
-        for ((f, face), source) in (0u32..).zip(&faces).zip(sources) {
-            let on_side = |k: u32| nodes.adjacency.edge_of(3 * f + k).and_then(|e| middles.get(&e).copied());
-            for part in parts(*face, [on_side(0), on_side(1), on_side(2)], &sheet.positions) {
-                sheet.faces.push(part);
-                sheet.sources.push(source);
-            }
-        }
+        divide(sheet, &nodes, &middles);
         self.withdraw(sheet, &before);
         true
     }
@@ -328,6 +373,18 @@ struct Look {
     /// The way to the middle of the wall; none where nothing is seen.
     off: DVec3,
     thickness: f64,
+}
+
+/// Divides the faces beside edges with nodes in their middles.
+fn divide(sheet: &mut Sheet, nodes: &Nodes, middles: &BTreeMap<u32, u32>) {
+    let (faces, sources) = (std::mem::take(&mut sheet.faces), std::mem::take(&mut sheet.sources));
+    for ((f, face), source) in (0u32..).zip(&faces).zip(sources) {
+        let on_side = |k: u32| nodes.adjacency.edge_of(3 * f + k).and_then(|e| middles.get(&e).copied());
+        for part in parts(*face, [on_side(0), on_side(1), on_side(2)], &sheet.positions) {
+            sheet.faces.push(part);
+            sheet.sources.push(source);
+        }
+    }
 }
 
 /// A face with nodes on some of its sides, as triangles; quadrangles are cut along their shorter diagonal.

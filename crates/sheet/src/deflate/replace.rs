@@ -10,7 +10,7 @@ use super::plane::Plane;
 use super::segments::Segments;
 use super::solid::Solid;
 use super::star::Star;
-use super::twins::{Twins, midpoint};
+use super::twins::Twins;
 use super::walls::Walls;
 
 /// Two planes meet in a line if the sine of the angle between them is more than this.
@@ -26,7 +26,7 @@ const STAY: f64 = 3e-3;
 const STAY_AGREED: f64 = 1e-4;
 /// Facets agree on a point that is this near to all of them, over the thickness.
 const AGREED: f64 = 2e-3;
-/// Halfway between twins is within this share of the thickness of all middles that meet there.
+/// The middle between twins is within this share of the thickness of all planes that meet there.
 const TWIN_OFF: f64 = 0.01;
 /// A node does not move farther than this many thicknesses for it.
 const REACH: f64 = 0.75;
@@ -173,12 +173,12 @@ impl<'a> Replacement<'a> {
         }
     }
 
-    /// Halfway to the twin of a node, if that is the middle for all that meets there.
+    /// The middle between twins, if it is so for all that meets there.
     fn between_twins(&self, v: u32, wanted: &Wanted, planes: &[Plane]) -> Option<DVec3> {
-        let middle = midpoint(self.solid, v, self.twins.of_node(v)?);
+        let middle = self.twins.middle(v)?;
         let is_near = |plane: &Plane| plane.height(middle).abs() < TWIN_OFF * wanted.thickness;
-        let sound = planes.iter().chain(wanted.facets.iter().map(|f| &f.0)).all(is_near);
-        (sound && !wanted.facets.is_empty()).then_some(middle)
+        let all = planes.iter().chain(wanted.facets.iter().map(|f| &f.0)).all(is_near);
+        (all && !wanted.facets.is_empty()).then_some(middle)
     }
 
     fn wanted(&self, v: u32) -> Wanted {

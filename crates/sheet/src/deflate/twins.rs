@@ -5,9 +5,10 @@
 
 use std::collections::VecDeque;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
+use super::seams::Merged;
 use super::solid::Solid;
 use super::walls::Walls;
 
@@ -17,24 +18,28 @@ const LEAN: f64 = 3.0 / 180.0 * std::f64::consts::PI;
 const EVEN: f64 = 0.03;
 /// Corners of the first pair of a set of twins are opposite to each other up to this share of the sides.
 const ASIDE_FIRST: f64 = 0.25;
+/// How much staying beside the mean of its nodes weighs against the middles that a node lies on.
+const STAY: f64 = 1e-6;
+/// A node is within this share of the thickness of all middles that meet there.
+const OFF: f64 = 0.01;
 /// Corners of the others up to this share of the thickness: folds shift them.
 const ASIDE: f64 = 1.2;
 
 /// Twin of a face: the other face, and which of its corners belongs to the first one.
 type Twin = (u32, u32);
 
-/// Faces and nodes opposite to each other.
+/// Faces opposite to each other, and where the nodes that belong to them have their middle.
 #[derive(Debug)]
 pub(super) struct Twins {
     faces: Vec<Option<Twin>>,
     /// Of every node.
-    nodes: Vec<Option<u32>>,
+    middles: Vec<Option<DVec3>>,
 }
 
 impl Twins {
     /// Finds pairs of faces that lie opposite to each other, and from these on their neighbours. O(n log n).
     pub(super) fn new(solid: &Solid, walls: &Walls) -> Self {
-        let mut twins = Self { faces: vec![None; solid.len() as usize], nodes: Vec::new() };
+        let mut twins = Self { faces: vec![None; solid.len() as usize], middles: Vec::new() };
         let first = |f: u32| twins.first(solid, walls, f);
         let firsts: Vec<Option<Twin>> = (0..solid.len()).into_par_iter().map(first).collect();
         let mut queue = VecDeque::new();
@@ -49,7 +54,7 @@ impl Twins {
                 }
             }
         }
-        twins.nodes = twins.nodes(solid);
+        twins.middles = twins.middles(solid);
         twins
     }
 
@@ -58,9 +63,9 @@ impl Twins {
         self.faces[f as usize].is_some()
     }
 
-    /// The twin of a node, if the faces about it agree on one.
-    pub(super) fn of_node(&self, v: u32) -> Option<u32> {
-        self.nodes[v as usize]
+    /// The middle of the wall at a node, if the twins about it agree on one.
+    pub(super) fn middle(&self, v: u32) -> Option<DVec3> {
+        self.middles[v as usize]
     }
 
     /// Twins, unless one of both is taken.
@@ -89,29 +94,76 @@ impl Twins {
             let near = |k| aside(solid, f, *twin, k).0 < ASIDE_FIRST * shortest;
             (0..3).all(near) && is_pair(solid, walls, f, *twin)
         })?;
-        let sound = |k| beside(solid, f, candidate, k).is_some_and(|(other, twin)| is_pair(solid, walls, other, twin));
+        let sound = |k| {
+            beside(solid, f, candidate, k).is_some_and(|(other, twin)| is_pair(solid, walls, other, twin))
+        };
         (0..3).all(sound).then_some(candidate)
     }
 
-    fn nodes(&self, solid: &Solid) -> Vec<Option<u32>> {
-        const NONE: u32 = u32::MAX;
-        const MANY: u32 = u32::MAX - 1;
-        let mut of = vec![NONE; solid.mesh.positions.len()];
+    /// Nodes that belong to each other have one middle. Mostly they are two; where a wall folds, its outer side has a fan of them.
+    fn middles(&self, solid: &Solid) -> Vec<Option<DVec3>> {
+        let n = solid.mesh.positions.len();
+        let mut sets = Merged::new(n);
+        let mut corners: Vec<(u32, Pairing)> = Vec::new();
         for (f, twin) in (0u32..).zip(&self.faces) {
-            let Some((g, first)) = *twin else { continue };
+            let Some((g, first)) = twin.filter(|(g, _)| f < *g) else { continue };
+            let normal = (solid.normals[f as usize] - solid.normals[g as usize]).normalize_or_zero();
             for k in 0..3 {
                 let v = solid.mesh.faces[f as usize][k as usize];
                 let w = solid.mesh.faces[g as usize][opposite(first, k)];
-                let slot = &mut of[v as usize];
-                *slot = if *slot == NONE || *slot == w { w } else { MANY };
+                sets.join(v, w);
+                corners.push((v, Pairing { nodes: [v, w], normal }));
             }
         }
-        let mutual = |v: usize| {
-            let w = of[v];
-            (w < MANY && of[w as usize] == v as u32).then_some(w)
-        };
-        (0..of.len()).map(mutual).collect()
+        let mut of_set: Vec<(u32, Pairing)> = corners.into_iter().map(|(v, c)| (sets.find(v), c)).collect();
+        of_set.sort_by_key(|c| c.0);
+        let mut middles = vec![None; n];
+        for run in of_set.chunk_by(|a, b| a.0 == b.0) {
+            let middle = middle_of(solid, run);
+            for v in run.iter().flat_map(|c| c.1.nodes) {
+                middles[v as usize] = middle;
+            }
+        }
+        middles
     }
+}
+
+/// Two corners of twins.
+#[derive(Clone, Copy)]
+struct Pairing {
+    nodes: [u32; 2],
+    /// Of the middle of the faces.
+    normal: DVec3,
+}
+
+/// The middle of nodes that belong together: halfway between two; of more, where the middles of their faces meet.
+fn middle_of(solid: &Solid, pairings: &[(u32, Pairing)]) -> Option<DVec3> {
+    let at = |v: u32| solid.mesh.positions[v as usize];
+    let halfway = |c: &Pairing| at(c.nodes[0]).midpoint(at(c.nodes[1]));
+    let first = &pairings[0].1;
+    let one_pair =
+        pairings.iter().all(|(_, c)| c.nodes == first.nodes || c.nodes == [first.nodes[1], first.nodes[0]]);
+    // A fan belongs to one node; else faces that only resemble each other have been mixed up.
+    let hub = first.nodes.into_iter().any(|v| pairings.iter().all(|(_, c)| c.nodes.contains(&v)));
+    if !hub {
+        return None;
+    }
+    let thickness =
+        pairings.iter().map(|(_, c)| at(c.nodes[0]).distance(at(c.nodes[1]))).fold(f64::INFINITY, f64::min);
+    let start = pairings.iter().map(|(_, c)| halfway(c)).sum::<DVec3>() / pairings.len() as f64;
+    let middle = if one_pair {
+        start
+    } else {
+        let (mut matrix, mut right) = (DMat3::IDENTITY * (STAY * pairings.len() as f64), DVec3::ZERO);
+        for (_, c) in pairings {
+            let n = c.normal;
+            matrix += DMat3::from_cols(n * n.x, n * n.y, n * n.z);
+            right += n * n.dot(halfway(c) - start);
+        }
+        start + matrix.inverse() * right
+    };
+    let is_near = |c: &Pairing| c.normal.dot(middle - halfway(c)).abs() < OFF * thickness;
+    (middle.is_finite() && pairings.iter().all(|(_, c)| is_near(c))).then_some(middle)
 }
 
 /// Which corner of a twin belongs to corner `k`.
@@ -146,16 +198,12 @@ fn is_pair(solid: &Solid, walls: &Walls, f: u32, twin: Twin) -> bool {
         return false;
     }
     let corners = [0, 1, 2].map(|k| aside(solid, f, twin, k));
-    let [thinnest, thickest] = [f64::min, f64::max].map(|of| corners[1..].iter().fold(corners[0].1, |t, c| of(t, c.1)));
+    let [thinnest, thickest] =
+        [f64::min, f64::max].map(|of| corners[1..].iter().fold(corners[0].1, |t, c| of(t, c.1)));
     let even = thinnest > 0.0 && thickest <= walls.max_thickness && thickest - thinnest < EVEN * thickest;
     let near = corners.iter().all(|c| c.0 < ASIDE * thickest);
     let at = |f: u32, k: usize| solid.mesh.positions[solid.mesh.faces[f as usize][k] as usize];
     let [a, b, c] = [0, 1, 2].map(|k: u32| at(f, k as usize).midpoint(at(g, opposite(first, k))));
     let upright = (b - a).cross(c - a).dot(solid.normals[f as usize]) > 0.0;
     even && near && upright
-}
-
-/// Halfway between a node and its twin.
-pub(super) fn midpoint(solid: &Solid, v: u32, w: u32) -> DVec3 {
-    solid.mesh.positions[v as usize].midpoint(solid.mesh.positions[w as usize])
 }
