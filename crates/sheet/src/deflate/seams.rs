@@ -222,7 +222,7 @@ impl Seams {
             }
             let d = self.positions[a as usize].distance(self.positions[b as usize]);
             // Nodes that are far apart for their edges are cut into each other's edges instead.
-            if d > MERGED_EDGE * shortest[a as usize].max(shortest[b as usize]) {
+            if d > (MERGED_EDGE * shortest[a as usize].max(shortest[b as usize])).max(SURELY * chords) {
                 continue;
             }
             for (from, to) in [(a, b), (b, a)] {
@@ -361,7 +361,7 @@ impl Seams {
             let beside = other.cross(along).length() < BESIDE * other.length() * length;
             let gap = open[v as usize] || edges[e].1 == 1;
             let is_soft = self.soft[v as usize] || edges[e].0.iter().any(|w| self.soft[*w as usize]);
-            let chord = gap && is_soft && beside && off <= near.chords.min(SAGITTA * length);
+            let chord = gap && is_soft && beside && off <= near.chords.min((SAGITTA * length).max(SURELY * near.chords));
             if within && (off <= near.rounding || chord) {
                 inner[e].push((s, v));
             }
@@ -380,5 +380,7 @@ const ROUNDS: usize = 6;
 const MERGED_EDGE: f64 = 0.4;
 /// A chord is no farther than this share of its length from its arc, if one of eight closes a circle.
 const SAGITTA: f64 = 0.2;
+/// What is nearer than this share of the distance that chords may have is one, however short its edges: walls are not so thin.
+const SURELY: f64 = 0.25;
 /// Sine of the angle between chords of the same border, at most.
 const BESIDE: f64 = 0.5;
