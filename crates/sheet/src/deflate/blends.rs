@@ -116,7 +116,11 @@ impl Blends {
                 // A rib's side touches that of a rib across it, but not the floor that it is blended with.
                 let is_own = own.iter().any(|o| o.group == b.group);
                 let apart = own.iter().any(|o| !self.touch(segments, solid, o.group, b.group));
-                !is_own && apart && mine.iter().all(|n| n.dot(facing(b)).abs() < PARALLEL)
+                // Where a rib stands, the end of both walls also reaches to the floor's other side.
+                let under = walls.partners(b.group).iter().any(|p| {
+                    own.iter().any(|o| o.group != p.partner && self.touch(segments, solid, o.group, p.partner))
+                });
+                !is_own && apart && !under && mine.iter().all(|n| n.dot(facing(b)).abs() < PARALLEL)
             };
             let others: Vec<&(f64, Belongs)> = reached.iter().filter(|r| meets(&r.1)).collect();
             let wall = others.iter().find(|r| walls.is_wall[r.1.group as usize]);

@@ -107,7 +107,10 @@ impl Seams {
     /// Closes parts between nodes that are only as exact as chords and so near to each other that the border would zigzag.
     fn merge_short(&mut self, least: f64) {
         let length = |[a, b]: &[u32; 2]| self.positions[*a as usize].distance(self.positions[*b as usize]);
-        let parts = self.parts().into_iter().map(|p| p.0);
+        let parts: Vec<[u32; 2]> = self.parts().into_iter().map(|p| p.0).collect();
+        let mut at_node = vec![0u32; self.positions.len()];
+        parts.iter().flatten().for_each(|v| at_node[*v as usize] += 1);
+        let parts = parts.into_iter();
         let is_soft = |[a, b]: &[u32; 2]| self.soft[*a as usize] && self.soft[*b as usize];
         let mut short: Vec<(f64, [u32; 2])> =
             parts.filter(is_soft).map(|p| (length(&p), p)).filter(|p| p.0 < least).collect();
@@ -117,7 +120,13 @@ impl Seams {
             if !(used[a as usize] || used[b as usize]) {
                 (used[a as usize], used[b as usize]) = (true, true);
                 let stays = a.min(b) as usize;
-                self.positions[stays] = self.positions[a as usize].midpoint(self.positions[b as usize]);
+                let (p, q) = (self.positions[a as usize], self.positions[b as usize]);
+                // Where borders end and branch, they do so for good.
+                self.positions[stays] = match [a, b].map(|v| at_node[v as usize] != 2) {
+                    [true, false] => p,
+                    [false, true] => q,
+                    _ => p.midpoint(q),
+                };
                 self.merged.join(a, b);
             }
         }
