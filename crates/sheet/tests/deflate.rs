@@ -3,10 +3,10 @@
 
 mod solid_models;
 
-use mesh_kernel::TriMesh;
 use mesh_kernel::body::Body;
 use mesh_kernel::glam::DVec3;
-use mesh_kernel::query::{Adjacency, Crossings};
+use mesh_kernel::query::{Adjacency, ClosestPoint, Crossings};
+use mesh_kernel::{Group, TriMesh};
 use sheet::deflate::{DeflateError, DeflateOptions, Deflated, Nobody, Shape, Step, Steps, Watcher, deflate};
 use sheet::thicken::{self, ThickenOptions, thicken};
 use solid_models::{appended, plate_with_hole, prism, revolved, turned};
@@ -308,6 +308,96 @@ fn a_mesh_of_its_own_has_its_nodes_on_round_middles() {
         let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
         assert!(longest < 7.0 && thin.sheet.area_normal(f).length() > 0.25 * longest * longest);
     }
+}
+
+#[test]
+fn cones_and_whole_rings_have_exact_middles() {
+    let options = DeflateOptions { edge_length: Some(4.0), ..DeflateOptions::default() };
+    // A funnel that narrows by 3 in 4: walls 2 thick across it are 2.5 apart in radius.
+    let funnel = turned(&revolved(&[[10., 0.], [40., 40.], [42.5, 40.], [12.5, 0.]], 40, true));
+    let thin = deflate(&funnel, &options, &Nobody).unwrap();
+    has_topology(&thin, [1, 0, 2, 1]);
+    let cones = thin.report.faces.iter().filter(|f| matches!(f.shape, Shape::Cone { .. })).count();
+    assert_eq!(cones, 2, "{:?}", thin.report.faces);
+    near(thin.report.area, std::f64::consts::PI * (11.25 + 41.25) * 50.0, 5e-3);
+    thin.thickness.iter().for_each(|t| near(*t, 2.0, 1e-6));
+    // A hollow ring about a pipe of mid radius 5, 2 thick: a skin outside, and one inside that faces the other way.
+    let circle = |r: f64, n: i32| -> Vec<[f64; 2]> {
+        let at = |k| std::f64::consts::TAU * f64::from(k) / f64::from(n);
+        (0..n).map(|k| [30.0 + r * at(k).cos(), r * at(k).sin()]).collect()
+    };
+    let mut ring = revolved(&circle(6.0, 24), 72, true);
+    let mut hollow = revolved(&circle(4.0, 20), 60, true);
+    hollow.faces.iter_mut().for_each(|f| f.swap(1, 2));
+    ring = turned(&appended(&ring, &hollow));
+    let options = DeflateOptions { edge_length: Some(2.0), ..DeflateOptions::default() };
+    let thin = deflate(&ring, &options, &Nobody).unwrap();
+    has_topology(&thin, [1, 0, 0, 1]);
+    let tori = thin.report.faces.iter().filter(|f| matches!(f.shape, Shape::Torus { .. })).count();
+    assert_eq!(tori, 2, "{:?}", thin.report.faces);
+    near(thin.report.area, std::f64::consts::TAU * 30.0 * std::f64::consts::TAU * 5.0, 1e-2);
+    thin.thickness.iter().for_each(|t| near(*t, 2.0, 1e-6));
+}
+
+/// A saddle of 60 × 40 with a fin on its middle line, in cells of `cell` mm: three patches that meet in one joint.
+fn saddle_with_fin(cell: f64) -> TriMesh {
+    let height = |x: f64, y: f64| 0.008 * x * x - 0.012 * y * y + 0.1 * x;
+    let mut mesh = TriMesh::default();
+    let mut grid = |name: &str, along: i32, across: i32, at: &dyn Fn(i32, i32) -> DVec3| {
+        let start = mesh.positions.len() as u32;
+        for i in 0..=along {
+            mesh.positions.extend((0..=across).map(|j| at(i, j)));
+        }
+        let first = mesh.faces.len() as u32;
+        let row = across as u32 + 1;
+        for i in 0..along as u32 {
+            for j in 0..across as u32 {
+                let a = start + i * row + j;
+                mesh.faces.extend([[a, a + row, a + row + 1], [a, a + row + 1, a + 1]]);
+            }
+        }
+        mesh.groups.push(Group { name: name.into(), faces: first..mesh.faces.len() as u32 });
+    };
+    let (along, across) = ((60.0 / cell) as i32, (20.0 / cell) as i32);
+    let x = |i: i32| f64::from(i) * cell - 30.0;
+    for (name, side) in [("left", 1.0), ("right", -1.0)] {
+        grid(name, along, across, &|i, j| {
+            let y = side * f64::from(j) * cell;
+            DVec3::new(x(i), y, height(x(i), y))
+        });
+    }
+    grid("fin", along, (15.0 / cell) as i32, &|i, j| {
+        let up = f64::from(j) * cell;
+        DVec3::new(x(i), 0.02 * up * up, height(x(i), 0.0) + up)
+    });
+    mesh
+}
+
+#[test]
+fn curved_sheets_come_back_node_by_node() {
+    let sheet = saddle_with_fin(2.5);
+    for t in [0.6, 1.8] {
+        let solid = thicken(&sheet, &ThickenOptions::new(t), &thicken::Nobody).unwrap().solid;
+        let thin = deflated(&solid);
+        has_topology(&thin, [3, 1, 2, 1]);
+        let distance = |mesh: &TriMesh, p: DVec3| ClosestPoint::new(mesh).closest(p).unwrap().distance;
+        // All but what is next to the joint is known exactly.
+        let far = sheet.positions.iter().filter(|p| p.y.abs() > 2.6 || p.y > 0.0 && p.y < 2.4);
+        let nodes: Vec<f64> = far.map(|p| nearest_node(&thin.sheet, *p) / t).collect();
+        assert!(
+            nodes.len() > 350 && nodes.iter().all(|d| *d < 1e-6),
+            "{t}: {:?}",
+            nodes.iter().copied().fold(0.0, f64::max)
+        );
+        for (mesh, other) in [(&sheet, &thin.sheet), (&thin.sheet, &sheet)] {
+            let off = mesh.positions.iter().map(|p| distance(other, *p) / t).fold(0.0, f64::max);
+            assert!(off < 0.01, "{t}: {off}");
+        }
+    }
+}
+
+fn nearest_node(mesh: &TriMesh, p: DVec3) -> f64 {
+    mesh.positions.iter().map(|q| q.distance(p)).fold(f64::INFINITY, f64::min)
 }
 
 #[test]

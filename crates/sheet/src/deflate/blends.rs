@@ -118,7 +118,8 @@ impl Blends {
                 let apart = own.iter().any(|o| !self.touch(segments, solid, o.group, b.group));
                 // Where a rib stands, the end of both walls also reaches to the floor's other side.
                 let under = walls.partners(b.group).iter().any(|p| {
-                    own.iter().any(|o| o.group != p.partner && self.touch(segments, solid, o.group, p.partner))
+                    own.iter()
+                        .any(|o| o.group != p.partner && self.touch(segments, solid, o.group, p.partner))
                 });
                 !is_own && apart && !under && mine.iter().all(|n| n.dot(facing(b)).abs() < PARALLEL)
             };

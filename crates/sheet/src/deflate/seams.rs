@@ -370,7 +370,10 @@ impl Seams {
             let beside = other.cross(along).length() < BESIDE * other.length() * length;
             let gap = open[v as usize] || edges[e].1 == 1;
             let is_soft = self.soft[v as usize] || edges[e].0.iter().any(|w| self.soft[*w as usize]);
-            let chord = gap && is_soft && beside && off <= near.chords.min((SAGITTA * length).max(SURELY * near.chords));
+            let chord = gap
+                && is_soft
+                && beside
+                && off <= near.chords.min((SAGITTA * length).max(SURELY * near.chords));
             if within && (off <= near.rounding || chord) {
                 inner[e].push((s, v));
             }
