@@ -7,10 +7,10 @@ use crate::designer::Designer;
 use crate::selection::Element;
 use crate::tools::{Event, Ghost, GhostShape, Tool};
 
-const SELECTED: Color32 = Color32::from_rgb(245, 150, 20);
-const HOVERED: Color32 = Color32::from_rgb(255, 205, 90);
-const LEGAL: Color32 = Color32::from_rgb(40, 150, 240);
-const ILLEGAL: Color32 = Color32::from_rgb(220, 50, 50);
+pub(crate) const SELECTED: Color32 = Color32::from_rgb(245, 150, 20);
+pub(crate) const HOVERED: Color32 = Color32::from_rgb(255, 205, 90);
+pub(crate) const LEGAL: Color32 = Color32::from_rgb(40, 150, 240);
+pub(crate) const ILLEGAL: Color32 = Color32::from_rgb(220, 50, 50);
 
 impl Designer {
     pub(crate) fn canvas(&mut self, ui: &mut egui::Ui) {
@@ -250,7 +250,8 @@ impl Designer {
     }
 }
 
-fn named(ui: &egui::Ui, at: Pos2, name: &str) {
+/// A small named rectangle, for screen readers and for tests.
+pub(crate) fn named(ui: &egui::Ui, at: Pos2, name: &str) {
     let rect = Rect::from_center_size(at, egui::vec2(8.0, 8.0));
     let response = ui.interact(rect, ui.scope_id().with(name), egui::Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::GraphicsObject, true, name));

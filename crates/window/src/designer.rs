@@ -10,7 +10,8 @@ use design::regenerate::Regenerated;
 use eframe::egui;
 use eframe::glow;
 
-use crate::actions::remedy;
+use crate::actions::{Workspace, remedy};
+use crate::board::Board;
 use crate::jobs::{Body, Builder, Cloth, FileJob};
 use crate::model::Model;
 use crate::notices::{Answer, Notice, Notices};
@@ -60,6 +61,8 @@ pub struct Designer {
     pub(crate) tool: Tool,
     pub(crate) machine: Box<dyn Machine>,
     pub(crate) drawing: Drawing,
+    pub(crate) workspace: Workspace,
+    pub(crate) board: Board,
     pub(crate) notices: Notices,
     pub(crate) preferences: Preferences,
     pub(crate) prompt: Option<Prompt>,
@@ -101,6 +104,8 @@ impl Designer {
             tool: Tool::Select,
             machine: Tool::Select.start(),
             drawing: Drawing::default(),
+            workspace: Workspace::default(),
+            board: Board::default(),
             notices: Notices::default(),
             preferences,
             prompt: None,
@@ -176,8 +181,9 @@ impl Designer {
     }
 
     pub(crate) fn command(&mut self, command: Command) {
+        let before = Arc::clone(self.session.draft());
         let done = self.session.apply(command);
-        self.after(done, Stale::Whole);
+        self.after(&before, done, Stale::Whole);
     }
 
     pub(crate) fn edit(&mut self, edit: Edit) {
@@ -186,19 +192,28 @@ impl Designer {
 
     /// A step of a drag that `gesture` names.
     pub(crate) fn live(&mut self, gesture: egui::Id, edit: Edit) {
+        let before = Arc::clone(self.session.draft());
         let done = self.session.live(gesture, edit);
-        self.after(done, Stale::Rough);
+        self.after(&before, done, Stale::Rough);
     }
 
     /// The drag is over.
     pub(crate) fn settle(&mut self) {
-        if self.session.settle() {
+        // What is dragged on the board has no part in the garment.
+        if self.session.settle() && self.workspace == Workspace::Garment {
             self.stale = Stale::Whole;
         }
     }
 
-    fn after(&mut self, done: Result<(), EditError>, stale: Stale) {
+    fn after(&mut self, before: &Arc<Draft>, done: Result<(), EditError>, stale: Stale) {
         match done {
+            Ok(()) if self.session.draft().has_garment_of(before) => {
+                self.notices.forget_problems();
+                if self.built.as_ref().is_some_and(|built| Arc::ptr_eq(built, before)) {
+                    self.built = Some(Arc::clone(self.session.draft()));
+                }
+                self.follow_drawing();
+            }
             Ok(()) => {
                 self.notices.forget_problems();
                 self.stale = self.stale.max(stale);
@@ -394,7 +409,10 @@ impl eframe::App for Designer {
         self.hovered_seam = None;
         let hovered = self.hovered.take();
         self.panels(ui);
-        egui::CentralPanel::no_frame().show(ui, |ui| self.canvas(ui));
+        egui::CentralPanel::no_frame().show(ui, |ui| match self.workspace {
+            Workspace::Garment => self.canvas(ui),
+            Workspace::Drawing => self.board_canvas(ui),
+        });
         if self.hovered != hovered {
             context.request_repaint();
         }

@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use design::draft::{FileKind, Recovery};
+use design::drawings::Making;
 use eframe::egui;
 
-use crate::actions::actions;
+use crate::actions::Action;
 use crate::files::{self, kind_of_name};
 use crate::prompts::{Answer, Next, Purpose};
 
@@ -64,6 +65,8 @@ pub(crate) fn path(
         Purpose::Deflate(Some(_)) => ("Write the mid-surface", "Make the mid-surface"),
         Purpose::Unfold(_, None) => ("Which sheet is laid flat?", "Next"),
         Purpose::Unfold(_, Some(_)) => ("Draw the flat plates", "Lay it flat"),
+        Purpose::Drawing => ("Take the drawing of which script?", "Open"),
+        Purpose::Script(_) => ("Write the drawing as a script", "Write"),
     };
     ui.heading(heading);
     if !note.is_empty() {
@@ -76,6 +79,9 @@ pub(crate) fn path(
             let value = egui::DragValue::new(thickness).range(least..=100.0).speed(0.05).suffix(" mm");
             ui.add(value).labelled_by(label.id);
         });
+    }
+    if let Purpose::Script(making) = purpose {
+        script(ui, making);
     }
     let label = ui.label("Path");
     let field = ui.add(egui::TextEdit::singleline(text).desired_width(f32::INFINITY)).labelled_by(label.id);
@@ -106,6 +112,27 @@ pub(crate) fn path(
     match chosen {
         Some(path) => Answer::Path(purpose.clone(), path),
         None => answer,
+    }
+}
+
+/// What the script makes of the drawing.
+fn script(ui: &mut egui::Ui, making: &mut Making) {
+    ui.horizontal(|ui| {
+        let height = if let Making::Walls(height) = making { *height } else { 50.0 };
+        for (kind, name) in [
+            (Making::Sheets, "Plane sheets with holes"),
+            (Making::Walls(height), "Walls"),
+            (Making::Wires, "Wires"),
+        ] {
+            ui.radio_value(making, kind, name);
+        }
+    });
+    if let Making::Walls(height) = making {
+        ui.horizontal(|ui| {
+            let label = ui.label("Height");
+            let value = egui::DragValue::new(height).range(0.01..=10_000.0).speed(0.5).suffix(" mm");
+            ui.add(value).labelled_by(label.id);
+        });
     }
 }
 
@@ -152,11 +179,11 @@ fn browse(ui: &mut egui::Ui, text: &mut String, recent: &[PathBuf]) -> Option<Pa
     chosen
 }
 
-pub(crate) fn keys(ui: &mut egui::Ui) -> Answer {
+pub(crate) fn keys(ui: &mut egui::Ui, actions: &[Action]) -> Answer {
     ui.heading("Keys");
     egui::ScrollArea::vertical().max_height(480.0).show(ui, |ui| {
         egui::Grid::new("keys").num_columns(3).striped(true).show(ui, |ui| {
-            for action in actions() {
+            for action in actions {
                 if action.shortcut.is_none() {
                     continue;
                 }

@@ -5,9 +5,11 @@
 //!
 //! * `session`: the history, its file, the selection; `model`: what follows from the draft; `jobs`: work in the background;
 //! * `tools`: state machines from events to effects; `actions`: everything that can be done by name;
+//! * `board`: the drawing in the plane, its tools and its panels;
 //! * `view`: the eye, the draw list and its two painters; `canvas`, `panels`, `prompts`: what is on the screen.
 
 mod actions;
+mod board;
 mod canvas;
 mod deletion;
 mod designer;

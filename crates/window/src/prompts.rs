@@ -4,9 +4,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use design::draft::{BodySource, Draft, Edit, FileKind, History, Recovery};
+use design::drawings::Making;
 use eframe::egui;
 
 use crate::actions::remedy;
+use crate::board::pen::Pen;
 use crate::designer::{Designer, Stale, describe};
 use crate::dialogs::{keys, path, recovery, unsaved};
 use crate::files::{self, LIBRARY, Opened};
@@ -37,12 +39,16 @@ pub(crate) enum Purpose {
     Deflate(Option<PathBuf>),
     /// Flat plates of a sheet: how thick it is, mm, and which.
     Unfold(f64, Option<PathBuf>),
+    /// A script, for its drawing.
+    Drawing,
+    /// A script of the drawing, and what it makes.
+    Script(Making),
 }
 
 impl Purpose {
     /// Whether a file that is there is asked for.
     pub(crate) fn reads(&self) -> bool {
-        matches!(self, Self::Open | Self::Deflate(None) | Self::Unfold(_, None))
+        matches!(self, Self::Open | Self::Drawing | Self::Deflate(None) | Self::Unfold(_, None))
     }
 }
 
@@ -127,6 +133,7 @@ impl Designer {
     fn begin(&mut self, history: History, file: Option<OnDisk>, is_saved: bool) {
         self.session = Session::new(history, file, is_saved, &self.state);
         self.take_tool(self.tool);
+        (self.board.pen, self.board.selection) = (Pen::new(self.board.pen.tool), Vec::new());
         self.forget_garments();
     }
 
@@ -182,6 +189,17 @@ impl Designer {
         let folder = folder.unwrap_or_default();
         let text = format!("{}{}", folder.display(), std::path::MAIN_SEPARATOR);
         self.prompt = Some(Prompt::Path { purpose, text, note });
+    }
+
+    pub(crate) fn prompt_drawing(&mut self) {
+        let note = "A script of modelling commands (.json); undo takes the drawing before.".to_owned();
+        self.prompt_source(Purpose::Drawing, note);
+    }
+
+    pub(crate) fn prompt_script(&mut self) {
+        let path = self.session.beside(&format!("{}-drawing.json", self.session.name()));
+        let note = "Commands for `toile model`; the design keeps the drawing with its rules.".to_owned();
+        self.prompt_path(Purpose::Script(Making::Sheets), &path, note);
     }
 
     pub(crate) fn prompt_save_as(&mut self, note: Option<String>) {
@@ -286,7 +304,7 @@ impl Designer {
                 Prompt::Path { purpose, text, note } => {
                     path(ui, purpose, text, note, &self.preferences.recent)
                 }
-                Prompt::Keys => keys(ui),
+                Prompt::Keys => keys(ui, &self.actions()),
             };
         });
         if matches!(answer, Answer::None) && modal.should_close() {
@@ -330,6 +348,8 @@ impl Designer {
                 Purpose::Thicken(thickness) => self.thicken(thickness, path, context),
                 Purpose::Deflate(source) => self.deflate(source, path, context),
                 Purpose::Unfold(thickness, source) => self.unfold(thickness, source, path, context),
+                Purpose::Drawing => self.open_drawing(&path),
+                Purpose::Script(making) => self.write_script(making, &path),
             },
         }
     }

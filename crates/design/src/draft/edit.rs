@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
+use sketch::Drawing;
 use template::Template;
 use template::format::{
     EaseSpec, JointSpec, LineSpec, NodeSpec, PieceSpec, ProfileShape, Shape, SurfaceSpec,
@@ -65,6 +66,8 @@ pub enum Edit {
     },
     /// A measurement of the form, cm; none: derived.
     SetMeasure { name: String, value: Option<f64> },
+    /// The drawing in the plane becomes another; `label` says by what.
+    Draw { label: String, drawing: Drawing },
     /// Edits that are one to a person: a stroke over several edges. All of them or none.
     Together { label: String, edits: Vec<Edit> },
 }
@@ -96,7 +99,7 @@ impl Edit {
             Self::SetTemplate { .. } => "set template".to_owned(),
             Self::SwitchBody { .. } => "switch body".to_owned(),
             Self::SetMeasure { name, .. } => format!("set {}", name.replace('_', " ")),
-            Self::Together { label, .. } => label.clone(),
+            Self::Draw { label, .. } | Self::Together { label, .. } => label.clone(),
         }
     }
 
@@ -109,7 +112,9 @@ impl Edit {
                 level == old
             }
             (Self::EditPiece { surface, .. }, Self::EditPiece { surface: old, .. }) => surface == old,
-            (Self::SetTemplate { .. }, Self::SetTemplate { .. }) => true,
+            (Self::SetTemplate { .. }, Self::SetTemplate { .. }) | (Self::Draw { .. }, Self::Draw { .. }) => {
+                true
+            }
             _ => false,
         }
     }
@@ -231,6 +236,7 @@ impl Edit {
                 set_measure(&mut m, name, *value)?;
                 draft.body = Arc::new(BodySource::Form(m));
             }
+            Self::Draw { drawing, .. } => draft.drawing = drawing.clone(),
             Self::Together { edits, .. } => {
                 for edit in edits {
                     edit.change(draft)?;

@@ -47,7 +47,7 @@ impl Designer {
     }
 
     /// A widget's new value as an edit: steps of one drag are one entry of the history.
-    fn changed(&mut self, response: &Response, edit: Edit) {
+    pub(crate) fn changed(&mut self, response: &Response, edit: Edit) {
         if response.changed() {
             // The frame in which the button goes up still belongs to the drag.
             let is_drag = response.dragged() || response.drag_stopped();

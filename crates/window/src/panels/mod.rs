@@ -4,9 +4,12 @@ mod inspector;
 mod outline;
 pub(crate) mod pattern;
 
+pub(crate) use outline::section;
+
 use eframe::egui::{self, Key};
 
-use crate::actions::{Action, Menu, actions};
+use crate::actions::{Action, DRAWING_BOARD, Menu, Workspace};
+use crate::board;
 use crate::designer::Designer;
 use crate::selection::Mode;
 use crate::tools::Tool;
@@ -18,6 +21,9 @@ impl Designer {
             self.tool_bar(ui);
         });
         egui::Panel::bottom("status").show(ui, |ui| self.status(ui));
+        if self.workspace == Workspace::Drawing {
+            return self.board_panels(ui);
+        }
         egui::Panel::left("outline")
             .default_size(190.0)
             .show(ui, |ui| egui::ScrollArea::vertical().show(ui, |ui| self.outline(ui)));
@@ -33,10 +39,13 @@ impl Designer {
     }
 
     fn menus(&mut self, ui: &mut egui::Ui) {
-        let all = actions();
+        let all = self.actions();
         let mut chosen: Option<&Action> = None;
         egui::MenuBar::new().ui(ui, |ui| {
             for (menu, name) in Menu::ALL {
+                if !all.iter().any(|a| a.menu == menu) {
+                    continue;
+                }
                 ui.menu_button(name, |ui| {
                     ui.set_min_width(220.0);
                     for action in all.iter().filter(|a| a.menu == menu) {
@@ -77,10 +86,13 @@ impl Designer {
 
     /// Tools, what clicks select, and the switches that hands look for.
     fn tool_bar(&mut self, ui: &mut egui::Ui) {
-        let all = actions();
+        let all = self.actions();
         let mut chosen: Option<&Action> = None;
         ui.horizontal_wrapped(|ui| {
-            let is_tool = |a: &&Action| Tool::ALL.iter().any(|(_, name, ..)| *name == a.text);
+            let is_tool = |a: &&Action| match self.workspace {
+                Workspace::Garment => Tool::ALL.iter().any(|(_, name, ..)| *name == a.text),
+                Workspace::Drawing => board::pen::Tool::ALL.iter().any(|(_, name, ..)| *name == a.text),
+            };
             let is_mode = |a: &&Action| Mode::ALL.iter().any(|(_, name)| *name == a.text);
             let is_switch = |a: &&Action| a.menu == Menu::View && a.is_on.is_some() && a.shortcut.is_some();
             let mut show = |ui: &mut egui::Ui, pick: &dyn Fn(&&Action) -> bool| {
@@ -95,8 +107,12 @@ impl Designer {
             show(ui, &is_tool);
             ui.separator();
             show(ui, &is_mode);
-            ui.separator();
+            if self.workspace == Workspace::Garment {
+                ui.separator();
+            }
             show(ui, &is_switch);
+            ui.separator();
+            show(ui, &|a: &&Action| a.text == DRAWING_BOARD);
         });
         if let Some(action) = chosen {
             action.run(self, &ui.ctx().clone());
@@ -116,6 +132,12 @@ impl Designer {
                 }
                 ui.separator();
             }
+            if self.workspace == Workspace::Drawing {
+                let pen = &self.board.pen;
+                ui.strong(board::pen::Tool::ALL.iter().find(|t| t.0 == pen.tool).map_or("", |t| t.1));
+                ui.label(pen.next_step());
+                return;
+            }
             let name = Tool::ALL.iter().find(|t| t.0 == self.tool).map_or("", |t| t.1);
             ui.strong(name);
             ui.label(self.machine.next_step(&self.world(1.0)));
@@ -132,7 +154,7 @@ impl Designer {
 
     pub(crate) fn show_palette(&mut self, context: &egui::Context) {
         let Some(mut text) = self.palette.take() else { return };
-        let all = actions();
+        let all = self.actions();
         let wanted = text.to_lowercase();
         let fits = |a: &&Action| {
             wanted
