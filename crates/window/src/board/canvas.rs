@@ -272,7 +272,10 @@ impl Designer {
         }
         if !texts.is_empty() {
             let galley = painter.layout_no_wrap(texts.join("; "), FontId::proportional(13.0), Color32::WHITE);
-            let back = Rect::from_min_size(at + egui::vec2(14.0, -26.0), galley.size()).expand(3.0);
+            // Left of the pointer where there is no room at its right.
+            let room = sheet.rect.right() - at.x - 20.0;
+            let left = if galley.size().x > room { -14.0 - galley.size().x } else { 14.0 };
+            let back = Rect::from_min_size(at + egui::vec2(left, -26.0), galley.size()).expand(3.0);
             painter.rect_filled(back, 3.0, Color32::from_black_alpha(170));
             painter.galley(back.min + egui::vec2(3.0, 3.0), galley, Color32::WHITE);
         }

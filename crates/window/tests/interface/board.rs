@@ -7,7 +7,9 @@ use egui_kittest::kittest::Queryable as _;
 use glam::DVec2;
 use sketch::{Drawing, Rule, Shape};
 
+use crate::from_nothing::half_skirt;
 use crate::support::Window;
+use window::Designer;
 
 /// An empty board; a millimetre is two points of the screen.
 fn board() -> Window {
@@ -32,7 +34,8 @@ fn click(window: &mut Window, x: f32, y: f32) {
     window.stroke_click(at);
 }
 
-fn typed(window: &mut Window, text: &str) {
+/// Types a number for the tool.
+pub(crate) fn typed(window: &mut Window, text: &str) {
     window.write("Length or place", text);
     window.key(Key::Enter);
 }
@@ -61,7 +64,6 @@ fn lines_close_and_each_is_an_entry() {
     assert_eq!(lines(&window).len(), 3, "{}", window.message());
     assert_eq!(drawing(&window).points().count(), 3, "the last click took the first point");
     assert!(window.has("1 closed outlines, 0 open"));
-    assert!(!window.harness.state().is_idle() || window.draft().template == Draft::empty().template);
     // The row ended: the next click begins another one.
     click(&mut window, -60.0, -60.0);
     assert_eq!(lines(&window).len(), 3);
@@ -327,7 +329,7 @@ fn a_drawing_goes_to_a_script_and_comes_back() {
     let before = drawing(&window).outlines().unwrap();
     window.keys(Modifiers::COMMAND, Key::A);
     window.key(Key::Delete);
-    assert_eq!(*drawing(&window), Drawing::default());
+    assert_eq!(drawing(&window).points().count() + drawing(&window).shapes().count(), 0);
     window.action("Open a drawing");
     window.write("Path", &path.display().to_string());
     window.steps();
@@ -345,6 +347,24 @@ fn a_drawing_goes_to_a_script_and_comes_back() {
     window.click("Open");
     assert!(window.message().contains("was not opened"), "{}", window.message());
     assert_eq!(*window.draft(), kept);
+}
+
+#[test]
+fn the_garment_does_not_wait_for_the_drawing() {
+    let mut window = half_skirt();
+    window.wait(Designer::is_built);
+    window.key(Key::F3);
+    window.key(Key::L);
+    click(&mut window, 0.0, 0.0);
+    click(&mut window, 60.0, 0.0);
+    assert_eq!(lines(&window).len(), 1, "{}", window.message());
+    assert!(window.harness.state().is_built() && window.harness.state().is_idle());
+    window.key(Key::Escape);
+    window.keys(Modifiers::COMMAND, Key::Z);
+    assert!(window.harness.state().is_built() && window.harness.state().is_idle());
+    // One more belongs to the garment.
+    window.keys(Modifiers::COMMAND, Key::Z);
+    assert_eq!(window.draft().template.surfaces.len(), 1);
 }
 
 #[test]
