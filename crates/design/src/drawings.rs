@@ -3,7 +3,7 @@
 use glam::DVec2;
 use serde_json::{Value, json};
 use sheet::model::{Command, Limits, Script, ScriptError};
-use sketch::{Drawing, DrawingError, Outline, Path, SketchError};
+use sketch::{Drawing, DrawingError, Outline, Path, SketchError, polygon_holds};
 
 /// What a drawing is to be made into.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,7 +86,7 @@ fn sheets(outlines: &[Outline]) -> Result<(Vec<Value>, Option<String>), DrawingF
         return Err(DrawingFileError::NoneClosed);
     }
     let around = |k: usize| -> Vec<usize> {
-        let inside = |j: &usize| *j != k && is_inside(&closed[*j].1, closed[k].1[0]);
+        let inside = |j: &usize| *j != k && polygon_holds(&closed[*j].1, closed[k].1[0]);
         (0..closed.len()).filter(inside).collect()
     };
     let nests: Vec<Vec<usize>> = (0..closed.len()).map(around).collect();
@@ -99,15 +99,6 @@ fn sheets(outlines: &[Outline]) -> Result<(Vec<Value>, Option<String>), DrawingF
     }
     let open = outlines.len() - closed.len();
     Ok((commands, (open > 0).then(|| format!("{open} open outlines"))))
-}
-
-/// Whether a closed polygon holds a point, by the number of sides to its right.
-fn is_inside(points: &[DVec2], p: DVec2) -> bool {
-    let sides = points.iter().zip(points.iter().cycle().skip(1));
-    let crossed = |(a, b): &(&DVec2, &DVec2)| {
-        (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
-    };
-    sides.filter(crossed).count() % 2 == 1
 }
 
 /// The drawing that a script begins with: outlines of its commands on the plane of the first. What of it was left out, in words.

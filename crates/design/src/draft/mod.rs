@@ -11,6 +11,8 @@ mod error;
 mod file;
 mod history;
 pub mod journal;
+mod rename;
+mod seams;
 mod shared;
 mod topology;
 
@@ -28,6 +30,7 @@ pub use edit::Edit;
 pub use error::{DraftFileError, EditError};
 pub use file::{DRAFT_VERSION, FileKind};
 pub use history::{Command, History};
+pub use rename::Named;
 pub use topology::{edges, faces, joints};
 
 /// A feature curve drawn by hand on the body.
