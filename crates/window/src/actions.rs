@@ -6,6 +6,7 @@ use eframe::egui::{self, Key, KeyboardShortcut, Modifiers};
 use crate::board::{Wish, pen};
 use crate::designer::{Designer, Prompt};
 use crate::files::LIBRARY;
+use crate::layout::Layout;
 use crate::preferences::Theme;
 use crate::prompts::Next;
 use crate::selection::Mode;
@@ -209,6 +210,19 @@ const ROWS: &[Row] = &[
 ];
 
 const GARMENT_ROWS: &[Row] = &[
+    (Menu::Window, "Keep layout …", None, "The panels as they are, under a name", |d, _, _| {
+        d.prompt = Some(Prompt::layout());
+    }),
+    (Menu::Window, "Usual layout", None, "All panels, as large as they were at first", |d, _, _| {
+        d.take_layout(Layout::default());
+    }),
+    (
+        Menu::Edit,
+        "Rename",
+        Some((PLAIN, Key::F2)),
+        "Another name for what is selected: node, patch, profile, joint",
+        |d, _, _| d.name_selected(),
+    ),
     (
         Menu::Edit,
         remedy::AUTOMATIC_JOINTS,
@@ -291,7 +305,7 @@ const GARMENT_SWITCHES: &[Switch] = &[
         Menu::View,
         "X-ray",
         Some((PLAIN, Key::X)),
-        "See and take what is hidden",
+        "See through the cloth, and take what is hidden",
         |d, _, _| d.relook(|l| l.x_ray = !l.x_ray),
         |d, _| d.look.x_ray,
     ),
@@ -438,6 +452,13 @@ fn actions(workspace: Workspace) -> Vec<Action> {
             add(Menu::Select, (*name).to_owned(), None, (*hint).to_owned(), k, run, None);
         }
     }
+    if workspace == Workspace::Garment {
+        for (k, (name, hint)) in Layout::PANELS.iter().enumerate() {
+            let is_on: fn(&Designer, usize) -> bool = |d, k| d.preferences.layout.panels[k].is_shown;
+            let run: Run = |d, _, k| d.toggle_panel(k);
+            add(Menu::Window, (*name).to_owned(), None, (*hint).to_owned(), k, run, Some(is_on));
+        }
+    }
     for (k, name) in UNITS.iter().enumerate() {
         let run: Run = |d, _, k| d.prefer(|p| p.unit = LengthUnit::ALL[k]);
         let is_on: fn(&Designer, usize) -> bool = |d, k| d.preferences.unit == LengthUnit::ALL[k];
@@ -465,7 +486,19 @@ fn actions(workspace: Workspace) -> Vec<Action> {
 impl Designer {
     /// Everything that can be done by name in this workspace.
     pub(crate) fn actions(&self) -> Vec<Action> {
-        actions(self.workspace)
+        let mut all = actions(self.workspace);
+        if self.workspace == Workspace::Garment {
+            all.extend(self.preferences.layouts.iter().enumerate().map(|(which, named)| Action {
+                text: format!("Layout: {}", named.name),
+                hint: "Panels as they were kept under this name".to_owned(),
+                menu: Menu::Window,
+                shortcut: None,
+                is_on: None,
+                run: |d, _, k| d.take_named_layout(k),
+                which,
+            }));
+        }
+        all
     }
 
     pub(crate) fn switch_workspace(&mut self) {
@@ -525,7 +558,9 @@ impl Designer {
         if self.prompt.is_some() || self.palette.is_some() {
             return;
         }
-        let is_typing = context.egui_wants_keyboard_input();
+        // Escape has taken the keyboard from a field before this is asked, and was meant for the field.
+        let is_written = context.egui_wants_keyboard_input();
+        let is_typing = std::mem::replace(&mut self.was_typing, is_written) || is_written;
         for action in self.actions() {
             let Some(shortcut) = action.shortcut else { continue };
             // Letters are text then, and these are the field's own.

@@ -4,6 +4,7 @@ use eframe::egui::{self, Align2, Color32, FontId, PointerButton, Pos2, Rect, Sha
 use glam::{DVec2, DVec3};
 
 use crate::designer::Designer;
+use crate::region::Region;
 use crate::selection::Element;
 use crate::tools::{Event, Ghost, GhostShape, Tool};
 
@@ -80,7 +81,9 @@ impl Designer {
             // A drag is known by its first movement; what it takes lay where it began.
             let from = ui.input(|i| i.pointer.press_origin()).unwrap_or(at);
             let from = self.view.local(from);
-            self.tool_event_at(Event::DragStart { from }, pixel_scale);
+            let is_lasso = self.tool == Tool::Select && ui.input(|i| i.modifiers.command);
+            let start = if is_lasso { Event::LassoStart { from } } else { Event::DragStart { from } };
+            self.tool_event_at(start, pixel_scale);
         }
         if response.dragged_by(PointerButton::Primary) && (response.drag_delta() != egui::Vec2::ZERO) {
             self.tool_event_at(Event::Drag { to }, pixel_scale);
@@ -170,15 +173,14 @@ impl Designer {
             GhostShape::Ink(points) => {
                 painter.add(Shape::line(points.iter().map(pixel).collect(), Stroke::new(2.0, color)));
             }
-            GhostShape::Box(from, to) => {
-                let rect = Rect::from_two_pos(pixel(from), pixel(to));
-                painter.rect(
-                    rect,
-                    0.0,
-                    color.gamma_multiply(0.15),
-                    Stroke::new(1.0, color),
-                    egui::StrokeKind::Middle,
-                );
+            GhostShape::Region(region) => {
+                let border: Vec<Pos2> = region.border().iter().map(pixel).collect();
+                // Fills of lassos would need their triangles.
+                if let Region::Box(from, to) = region {
+                    let rect = Rect::from_two_pos(pixel(from), pixel(to));
+                    painter.rect_filled(rect, 0.0, color.gamma_multiply(0.15));
+                }
+                painter.add(Shape::line(border, Stroke::new(1.0, color)));
             }
             GhostShape::Text(at, text) => {
                 let at = pixel(at) + egui::vec2(14.0, -14.0);

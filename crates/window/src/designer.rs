@@ -12,12 +12,15 @@ use eframe::glow;
 
 use crate::actions::{Workspace, remedy};
 use crate::board::Board;
+use crate::browsing::{Browsing, FileDialog, system_dialog};
 use crate::jobs::{Body, Builder, Cloth, FileJob};
 use crate::model::Model;
+use crate::naming::Naming;
 use crate::notices::{Answer, Notice, Notices};
 use crate::panels::pattern::PatternView;
 use crate::preferences::{Preferences, Theme};
 pub(crate) use crate::prompts::Prompt;
+use crate::region::Region;
 use crate::selection::{Element, Mode};
 use crate::session::{OnDisk, Session};
 use crate::tools::{Drawing, Effect, Event, Machine, Tool, World};
@@ -70,6 +73,13 @@ pub struct Designer {
     pub(crate) pattern: PatternView,
     /// The pattern made last: it stays to be seen while something is dragged.
     pub(crate) last_made: Option<Arc<Regenerated>>,
+    /// How many layouts were taken: each has panels of its own.
+    pub(crate) layouts_taken: usize,
+    pub(crate) naming: Naming,
+    /// A field had the keyboard in the frame before.
+    pub(crate) was_typing: bool,
+    pub(crate) file_dialog: FileDialog,
+    pub(crate) browsing: Option<Browsing>,
     /// What is under the pointer, in whichever view.
     pub(crate) hovered: Option<Element>,
     /// The seam under the pointer in the pattern.
@@ -112,6 +122,11 @@ impl Designer {
             palette: None,
             pattern: PatternView::default(),
             last_made: None,
+            layouts_taken: 0,
+            naming: Naming::default(),
+            was_typing: false,
+            file_dialog: system_dialog,
+            browsing: None,
             hovered: None,
             hovered_seam: None,
             builder: Builder::start(),
@@ -144,6 +159,12 @@ impl Designer {
         }
         self.apply_theme(&context.egui_ctx);
         self
+    }
+
+    /// Another dialog for paths than the desktop's.
+    #[must_use]
+    pub fn with_file_dialog(self, file_dialog: FileDialog) -> Self {
+        Self { file_dialog, ..self }
     }
 
     /// The draft as it is.
@@ -223,6 +244,7 @@ impl Designer {
                 let notice = Notice::problem(e.to_string());
                 self.notices.push(match e {
                     EditError::Used { kind: "node", name, .. } => notice.about(Element::Node(name)),
+                    EditError::Held { joint, .. } => notice.about(Element::Joint(joint)),
                     EditError::Edge { from, to, .. } => {
                         notice.with_remedy(remedy::FACE_TOOL).about(Element::edge(&from, &to))
                     }
@@ -286,10 +308,11 @@ impl Designer {
     }
 
     pub(crate) fn select_all(&mut self) {
-        let everything = glam::DVec2::splat(1e9);
+        let far = glam::DVec2::splat(1e9);
+        let everything = Region::Box(-far, far);
         let mode = self.session.mode;
         let picker = Picker { x_ray: true, ..self.picker() };
-        let all = picker.within(-everything, everything, mode);
+        let all = picker.within(&everything, mode);
         self.session.selection.replace(all);
     }
 
@@ -314,9 +337,13 @@ impl Designer {
     }
 
     pub(crate) fn stop(&mut self) {
-        if let Some(job) = &self.file_job {
-            // What it has in hand it still says.
-            job.stop();
+        if let Some(job) = self.file_job.take() {
+            if job.stop() {
+                self.notices.say(format!("{}: stopped, and nothing is written", job.what));
+            } else {
+                // It says so itself in a moment.
+                self.file_job = Some(job);
+            }
             return;
         }
         self.builder.cancel();
@@ -436,6 +463,7 @@ impl eframe::App for Designer {
     }
 
     fn on_exit(&mut self, gl: Option<&glow::Context>) {
+        self.preferences.save(&self.state);
         if let Some(gl) = gl {
             self.view.destroy(gl);
         }

@@ -7,6 +7,7 @@ use design::drawings::Making;
 use eframe::egui;
 
 use crate::actions::Action;
+use crate::browsing::{FileWish, PathKind};
 use crate::files::{self, kind_of_name};
 use crate::prompts::{Answer, Next, Purpose};
 
@@ -55,6 +56,7 @@ pub(crate) fn path(
     text: &mut String,
     note: &str,
     recent: &[PathBuf],
+    is_browsing: bool,
 ) -> Answer {
     let (heading, button) = match purpose {
         Purpose::Open => ("Open a design, a template or a body", "Open"),
@@ -84,7 +86,16 @@ pub(crate) fn path(
         script(ui, making);
     }
     let label = ui.label("Path");
-    let field = ui.add(egui::TextEdit::singleline(text).desired_width(f32::INFINITY)).labelled_by(label.id);
+    let mut is_asked = false;
+    let field = ui
+        .horizontal(|ui| {
+            let width = ui.available_width() - 90.0;
+            let field = ui.add(egui::TextEdit::singleline(text).desired_width(width)).labelled_by(label.id);
+            let button = ui.add_enabled(!is_browsing, egui::Button::new("Browse …"));
+            is_asked = button.on_hover_text("The file dialog of the desktop").clicked();
+            field
+        })
+        .inner;
     // Asked before the field takes the keyboard again.
     let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
     if ui.memory(|m| m.focused().is_none()) {
@@ -109,9 +120,29 @@ pub(crate) fn path(
             answer = Answer::Close;
         }
     });
+    if is_asked {
+        return Answer::Browse(wish(purpose, heading, &target));
+    }
     match chosen {
         Some(path) => Answer::Path(purpose.clone(), path),
         None => answer,
+    }
+}
+
+/// What the desktop's dialog is asked for.
+fn wish(purpose: &Purpose, title: &str, target: &Path) -> FileWish {
+    let kind = match purpose {
+        Purpose::Export => PathKind::Folder,
+        _ if purpose.reads() => PathKind::Open,
+        _ => PathKind::Save,
+    };
+    let folder = if target.is_dir() { Some(target) } else { target.parent() };
+    let name = target.file_name().filter(|_| !target.is_dir());
+    FileWish {
+        kind,
+        title: title.to_owned(),
+        folder: folder.map(Path::to_owned).unwrap_or_default(),
+        name: name.map(|n| n.to_string_lossy().into_owned()).unwrap_or_default(),
     }
 }
 
@@ -197,6 +228,7 @@ pub(crate) fn keys(ui: &mut egui::Ui, actions: &[Action]) -> Answer {
                 ("Shift + the same", "move the eye across"),
                 ("wheel", "nearer and farther"),
                 ("Shift + click", "add to the selection, or take out of it"),
+                ("drag on empty ground", "select by a box; with Ctrl by a lasso"),
             ] {
                 ui.monospace(hand);
                 ui.label(what);

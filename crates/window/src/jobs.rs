@@ -255,9 +255,9 @@ impl FileJob {
         Self { what, receiver, stop }
     }
 
-    /// Asks it to end; it says so itself when it has.
-    pub(crate) fn stop(&self) {
-        self.stop.now();
+    /// Stops it, unless it writes already; whether it could. What it is in the midst of it may end, for nobody.
+    pub(crate) fn stop(&self) -> bool {
+        self.stop.now()
     }
 
     /// What it came to, once.

@@ -10,6 +10,7 @@
 
 mod actions;
 mod board;
+mod browsing;
 mod canvas;
 mod deletion;
 mod designer;
@@ -17,13 +18,16 @@ mod dialogs;
 mod files;
 mod following;
 mod jobs;
+mod layout;
 #[cfg(test)]
 mod measure;
 mod model;
+mod naming;
 mod notices;
 mod panels;
 mod preferences;
 mod prompts;
+mod region;
 mod selection;
 mod session;
 mod tools;
@@ -31,6 +35,7 @@ mod units;
 mod view;
 mod workshop;
 
+pub use browsing::{FileDialog, FileWish, PathKind};
 pub use designer::{Designer, Start};
 
 /// Opens the window and returns when it is closed.

@@ -9,10 +9,12 @@ use eframe::egui;
 
 use crate::actions::remedy;
 use crate::board::pen::Pen;
+use crate::browsing::{Browsed, Browsing, FileWish};
 use crate::designer::{Designer, Stale, describe};
 use crate::dialogs::{keys, path, recovery, unsaved};
 use crate::files::{self, LIBRARY, Opened};
 use crate::jobs::FileJob;
+use crate::layout::{self, LayoutAnswer};
 use crate::notices::Notice;
 use crate::session::{OnDisk, Session};
 use crate::workshop::{self, Stop};
@@ -56,8 +58,16 @@ impl Purpose {
 pub(crate) enum Prompt {
     Unsaved(Next),
     Recovery(Vec<(Recovery, String)>),
-    Path { purpose: Purpose, text: String, note: String },
+    Path {
+        purpose: Purpose,
+        text: String,
+        note: String,
+    },
     Keys,
+    /// The panels are kept under a name.
+    Layout {
+        name: String,
+    },
 }
 
 impl Prompt {
@@ -75,6 +85,8 @@ pub(crate) enum Answer {
     Recover(Recovery),
     Discard(Recovery),
     Path(Purpose, PathBuf),
+    Browse(FileWish),
+    Layout(LayoutAnswer),
 }
 
 impl Designer {
@@ -235,7 +247,7 @@ impl Designer {
         let made = self.model.cloth.as_ref().and_then(|c| c.made.clone()).filter(|_| self.is_built());
         match made {
             Some(made) => {
-                let work = move |_: &Stop| files::export(&made, &folder);
+                let work = move |stop: &Stop| files::export(&made, &folder, stop);
                 self.file_job = Some(FileJob::start("exporting".to_owned(), context, work));
             }
             None => {
@@ -272,7 +284,7 @@ impl Designer {
             let note = "A drawing, .dxf or .svg. Without a thickness the sheet is folded sharply.".to_owned();
             return self.prompt_path(Purpose::Unfold(thickness, Some(path)), &beside, note);
         };
-        let work = move |_: &Stop| workshop::unfold_to(&sheet, thickness, &path);
+        let work = move |stop: &Stop| workshop::unfold_to(&sheet, thickness, &path, stop);
         self.file_job = Some(FileJob::start("laying the sheet flat".to_owned(), context, work));
     }
 
@@ -293,8 +305,27 @@ impl Designer {
         }
     }
 
+    /// What the desktop's dialog came to goes into the field; a person still says yes to it.
+    fn take_browsed(&mut self, prompt: &mut Prompt) {
+        let Some(browsed) = self.browsing.as_ref().and_then(Browsing::take) else { return };
+        self.browsing = None;
+        match (browsed, prompt) {
+            (Browsed::Path(path), Prompt::Path { text, .. }) => *text = path.display().to_string(),
+            (Browsed::Missing, Prompt::Path { note, .. }) => {
+                *note = "There is no file dialog of the desktop here; write the path.".to_owned();
+            }
+            _ => {}
+        }
+    }
+
     pub(crate) fn show_prompt(&mut self, context: &egui::Context) {
-        let Some(mut prompt) = self.prompt.take() else { return };
+        let Some(mut prompt) = self.prompt.take() else {
+            // An answer that comes later is to a question that is no more.
+            self.browsing = None;
+            return;
+        };
+        self.take_browsed(&mut prompt);
+        let is_browsing = self.browsing.is_some();
         let mut answer = Answer::None;
         let modal = egui::Modal::new(egui::Id::unique("prompt")).show(context, |ui| {
             ui.set_width(if matches!(prompt, Prompt::Keys) { 880.0 } else { 620.0 });
@@ -302,9 +333,14 @@ impl Designer {
                 Prompt::Unsaved(next) => unsaved(ui, &self.session.name(), next),
                 Prompt::Recovery(found) => recovery(ui, found),
                 Prompt::Path { purpose, text, note } => {
-                    path(ui, purpose, text, note, &self.preferences.recent)
+                    path(ui, purpose, text, note, &self.preferences.recent, is_browsing)
                 }
                 Prompt::Keys => keys(ui, &self.actions()),
+                Prompt::Layout { name } => match layout::ask(ui, name, &self.preferences.layouts) {
+                    LayoutAnswer::None => Answer::None,
+                    LayoutAnswer::Close => Answer::Close,
+                    other => Answer::Layout(other),
+                },
             };
         });
         if matches!(answer, Answer::None) && modal.should_close() {
@@ -313,7 +349,17 @@ impl Designer {
         match answer {
             Answer::None => self.prompt = self.prompt.take().or(Some(prompt)),
             Answer::Close => {}
+            Answer::Browse(wish) => {
+                self.browsing = Some(Browsing::start(self.file_dialog, wish, context));
+                self.prompt = Some(prompt);
+            }
             Answer::GiveUp(next) => self.go_on(next),
+            Answer::Layout(LayoutAnswer::Keep(name)) => self.keep_layout(&name),
+            Answer::Layout(LayoutAnswer::Delete(k)) => {
+                self.prefer(|p| drop(p.layouts.remove(k)));
+                self.prompt = Some(prompt);
+            }
+            Answer::Layout(_) => {}
             Answer::Save(next) => match self.session.file.clone() {
                 Some(OnDisk { path, kind: FileKind::Draft }) => {
                     if self.save_to(&path) {

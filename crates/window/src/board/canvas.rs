@@ -144,7 +144,9 @@ impl Designer {
         let place = |d: &Self, p: Pos2| d.board.pen.place(d.board.sheet.mm(p), &d.board_world());
         if response.drag_started_by(PointerButton::Primary) {
             let from = ui.input(|i| i.pointer.press_origin()).unwrap_or(at);
-            self.board_event(Event::DragStart { from: place(self, from) });
+            let from = place(self, from);
+            let is_lasso = self.board.pen.tool == Tool::Select && ui.input(|i| i.modifiers.command);
+            self.board_event(if is_lasso { Event::LassoStart { from } } else { Event::DragStart { from } });
         }
         let to = place(self, at);
         if response.dragged_by(PointerButton::Primary) && response.drag_delta() != egui::Vec2::ZERO {
@@ -235,10 +237,9 @@ impl Designer {
         let board = &self.board;
         let sheet = &board.sheet;
         let pen = &board.pen;
-        if let Some([from, to]) = pen.marquee() {
-            let rect = Rect::from_two_pos(sheet.screen(from), sheet.screen(to));
-            let (fill, stroke) = (LEGAL.gamma_multiply(0.15), Stroke::new(1.0, LEGAL));
-            painter.rect(rect, 0.0, fill, stroke, egui::StrokeKind::Middle);
+        if let Some(region) = pen.region() {
+            let border = region.border().into_iter().map(|p| sheet.screen(p)).collect();
+            painter.add(Ink::line(border, Stroke::new(1.0, LEGAL)));
         }
         if let Some(handles) = pen.pulled() {
             painter.add(Ink::line(handles.map(|p| sheet.screen(p)).to_vec(), Stroke::new(1.0, LEGAL)));

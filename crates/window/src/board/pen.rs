@@ -6,6 +6,7 @@ use sketch::{Drawing, DrawingError, PointId, ShapeId, Snap, SnapKind, SnapOption
 
 use super::typed::Typed;
 use super::world::{Part, Place, World};
+use crate::region::Region;
 
 /// What the pointer does on the drawing board.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,6 +51,10 @@ pub(crate) enum Event {
     },
     /// A drag began.
     DragStart {
+        from: Place,
+    },
+    /// A drag with Ctrl began.
+    LassoStart {
         from: Place,
     },
     Drag {
@@ -131,10 +136,7 @@ enum Drag {
         at: Place,
         to: DVec2,
     },
-    Box {
-        from: DVec2,
-        to: DVec2,
-    },
+    Region(Region),
 }
 
 /// A tool at work.
@@ -189,9 +191,10 @@ impl Pen {
         }
     }
 
-    pub(crate) fn marquee(&self) -> Option<[DVec2; 2]> {
+    /// What a box or a lasso goes round.
+    pub(crate) fn region(&self) -> Option<&Region> {
         match &self.drag {
-            Drag::Box { from, to } => Some([*from, *to]),
+            Drag::Region(region) => Some(region),
             _ => None,
         }
     }
@@ -211,6 +214,10 @@ impl Pen {
                     }
                     _ => Vec::new(),
                 }
+            }
+            Event::LassoStart { from } => {
+                self.drag = Drag::Region(Region::new(from.pointer, true));
+                Vec::new()
             }
             Event::Drag { to } => self.dragged(to),
             Event::DragEnd { to, add } => self.dropped(to, add, world),
@@ -390,7 +397,7 @@ impl Pen {
                 Some(part) => {
                     Drag::Part { part, from: from.pointer, before: Box::new(world.drawing.clone()) }
                 }
-                None => Drag::Box { from: from.pointer, to: from.pointer },
+                None => Drag::Region(Region::new(from.pointer, false)),
             },
             Tool::Bend => match world.shape(from.pointer) {
                 Some(shape) => Drag::Bend { shape, before: Box::new(world.drawing.clone()) },
@@ -411,8 +418,12 @@ impl Pen {
                 let shape = *shape;
                 live("bend", before, |d| d.bend(shape, to.at()))
             }
-            Drag::Pull { to: end, .. } | Drag::Box { to: end, .. } => {
+            Drag::Pull { to: end, .. } => {
                 *end = to.pointer;
+                Vec::new()
+            }
+            Drag::Region(region) => {
+                region.reach(to.pointer);
                 Vec::new()
             }
             Drag::None => Vec::new(),
@@ -434,8 +445,9 @@ impl Pen {
             }
             Drag::Part { .. } | Drag::Bend { .. } => vec![Effect::Settle],
             Drag::Pull { at, .. } => self.curve(at, Some(to.pointer), world),
-            Drag::Box { from, .. } => {
-                let inside = world.within(from, to.pointer);
+            Drag::Region(mut region) => {
+                region.reach(to.pointer);
+                let inside = world.within(&region);
                 vec![if add { Effect::Toggle(inside) } else { Effect::Select(inside) }]
             }
             // A drag of a tool that draws by clicks is a click that trembled.
@@ -469,7 +481,7 @@ impl Pen {
     pub(crate) fn next_step(&self) -> &'static str {
         match (self.tool, self.taken.len()) {
             (Tool::Select, _) => {
-                "click a point or a shape; Shift adds; drag to move, onto another point to join; drag a box"
+                "click a point or a shape; Shift adds; drag to move, onto another point to join; drag a box, with Ctrl a lasso"
             }
             (Tool::Line, 0) => "click where the line begins, or type across; up",
             (Tool::Line, _) => {

@@ -52,7 +52,7 @@ mod tests {
     #[test]
     fn lengths_directions_and_steps_are_read() {
         let read = |text| Typed::parse(text, LengthUnit::Centimetre);
-        assert_eq!(read("12 in"), Some(Typed::Length(304.8)));
+        assert_eq!(read("10 in"), Some(Typed::Length(254.0)));
         assert_eq!(read("4"), Some(Typed::Length(40.0)));
         assert_eq!(read("4 @ 30°"), Some(Typed::Polar { length: 40.0, degrees: 30.0 }));
         assert_eq!(read("-1; 2,5 mm"), Some(Typed::Step(DVec2::new(-10.0, 2.5))));

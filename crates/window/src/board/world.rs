@@ -3,6 +3,8 @@
 use glam::DVec2;
 use sketch::{Curve, Drawing, PointId, Shape, ShapeId, Snap, SnapKind};
 
+use crate::region::Region;
+
 /// A part of a drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Part {
@@ -107,10 +109,9 @@ impl World<'_> {
         })
     }
 
-    /// Everything whose points all lie within a box.
-    pub(crate) fn within(&self, from: DVec2, to: DVec2) -> Vec<Part> {
-        let (low, high) = (from.min(to), from.max(to));
-        let inside = |p: DVec2| p.cmpge(low).all() && p.cmple(high).all();
+    /// Everything that lies whole within a part of the plane.
+    pub(crate) fn within(&self, region: &Region) -> Vec<Part> {
+        let inside = |p: DVec2| region.holds(p);
         let curve = |id| self.drawing.curve(id).ok();
         let whole = |c: Curve| c.parameters(self.reach).into_iter().all(|t| inside(c.point(t)));
         let points = self.drawing.points().filter(|(_, p)| inside(*p)).map(|(id, _)| Part::Point(id));

@@ -11,6 +11,7 @@ use eframe::egui::{self, Key};
 use crate::actions::{Action, DRAWING_BOARD, Menu, Workspace};
 use crate::board;
 use crate::designer::Designer;
+use crate::layout::{INSPECTOR, OUTLINE, PATTERN};
 use crate::selection::Mode;
 use crate::tools::Tool;
 
@@ -24,18 +25,33 @@ impl Designer {
         if self.workspace == Workspace::Drawing {
             return self.board_panels(ui);
         }
-        egui::Panel::left("outline")
-            .default_size(190.0)
-            .show(ui, |ui| egui::ScrollArea::vertical().show(ui, |ui| self.outline(ui)));
-        egui::Panel::right("inspector").default_size(330.0).show(ui, |ui| {
-            egui::Panel::top("pattern")
-                .resizable(true)
-                .default_size(300.0)
-                .show(ui, |ui| self.pattern_view(ui));
-            egui::CentralPanel::default_margins().show(ui, |ui| {
-                egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| self.inspector(ui));
-            });
+        let [outline, pattern, inspector] = self.preferences.layout.panels;
+        if outline.is_shown {
+            let shown = egui::Panel::left(self.panel_id(OUTLINE))
+                .default_size(outline.size)
+                .show(ui, |ui| egui::ScrollArea::vertical().show(ui, |ui| self.outline(ui)));
+            self.preferences.layout.panels[OUTLINE].size = shown.response.rect.width();
+        }
+        if !(pattern.is_shown || inspector.is_shown) {
+            return;
+        }
+        let right = egui::Panel::right(self.panel_id(INSPECTOR)).default_size(inspector.size);
+        let shown = right.show(ui, |ui| match (pattern.is_shown, inspector.is_shown) {
+            (true, true) => {
+                let above =
+                    egui::Panel::top(self.panel_id(PATTERN)).resizable(true).default_size(pattern.size);
+                let above = above.show(ui, |ui| self.pattern_view(ui));
+                self.preferences.layout.panels[PATTERN].size = above.response.rect.height();
+                egui::CentralPanel::default_margins().show(ui, |ui| self.scrolled_inspector(ui));
+            }
+            (true, false) => self.pattern_view(ui),
+            _ => self.scrolled_inspector(ui),
         });
+        self.preferences.layout.panels[INSPECTOR].size = shown.response.rect.width();
+    }
+
+    fn scrolled_inspector(&mut self, ui: &mut egui::Ui) {
+        egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| self.inspector(ui));
     }
 
     fn menus(&mut self, ui: &mut egui::Ui) {
@@ -121,13 +137,11 @@ impl Designer {
 
     fn status(&mut self, ui: &mut egui::Ui) {
         ui.horizontal(|ui| {
-            let busy = self.builder.step().or(self.file_job.as_ref().map(|j| j.what.clone()));
+            let busy = self.file_job.as_ref().map(|j| j.what.clone()).or(self.builder.step());
             if let Some(step) = busy {
                 ui.spinner();
                 ui.label(step);
-                if self.builder.step().is_some()
-                    && ui.small_button("Stop").on_hover_text("Stop building").clicked()
-                {
+                if ui.small_button("Stop").on_hover_text("Stop what is being built or made").clicked() {
                     self.stop();
                 }
                 ui.separator();

@@ -194,6 +194,11 @@ fn points_are_moved_and_joined_by_dragging() {
     let [from, to] = [screen(&window, -100.0, -20.0), screen(&window, -70.0, 60.0)];
     window.stroke(&[from, to]);
     assert!(window.has("3 selected"), "a line and its ends");
+    window.key(Key::Escape);
+    let around = [(-100.0, -20.0), (-100.0, 60.0), (-70.0, 60.0), (-70.0, -20.0)];
+    let around = around.map(|(x, y)| screen(&window, x, y));
+    window.drag(eframe::egui::PointerButton::Primary, &around, 4, Modifiers::COMMAND);
+    assert!(window.has("3 selected"), "so does a lasso");
     window.key(Key::Delete);
     assert_eq!((lines(&window).len(), drawing(&window).points().count()), (3, 3));
 }

@@ -4,10 +4,13 @@
 #![allow(clippy::unwrap_used)]
 
 mod board;
+mod browsing;
 mod files;
 mod from_nothing;
 mod hand;
 mod keyboard;
+mod layout;
+mod names;
 mod pictures;
 mod renderer;
 mod support;
