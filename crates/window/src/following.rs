@@ -58,7 +58,11 @@ impl Designer {
         self.view.solids.body = self.model.body.as_ref().map(|b| Arc::clone(&b.caster));
         self.view.solids.garment =
             self.model.cloth.as_ref().filter(|_| self.look.garment).map(|c| Arc::clone(&c.caster));
-        self.view.set_scene(scene::scene(&self.model, &self.look));
+        let scene = scene::scene(&self.model, &self.look);
+        // The body is the first surface; in x-ray the cloth over it is seen through.
+        let is_body = self.look.body && self.model.body.is_some();
+        let opaque = if self.look.x_ray { usize::from(is_body) } else { scene.meshes.len() };
+        self.view.set_scene(scene, opaque);
     }
 
     pub(crate) fn show_lines(&mut self) {

@@ -12,6 +12,7 @@ use glam::DMat4;
 use sketch::Camera;
 use viewer::{Hidden, MeshBuffer, Scene};
 
+use super::SEEN_THROUGH;
 use super::shaders::{LINE_FRAGMENT, LINE_VERTEX, MESH_FRAGMENT, MESH_VERTEX};
 
 /// Bytes of a vertex of a line: both ends (six `f32`), which end and side (two `f32`), half the width (`f32`), colour.
@@ -21,6 +22,7 @@ const LINE_STRIDE: i32 = 40;
 #[derive(Default)]
 struct Upload {
     mesh: Option<MeshBuffer>,
+    opaque: i32,
     lines: Option<Vec<u8>>,
 }
 
@@ -44,7 +46,8 @@ struct Programs {
     index_buffer: glow::Buffer,
     line_array: glow::VertexArray,
     line_buffer: glow::Buffer,
-    mesh_indices: i32,
+    /// Corners of faces, and how many of them, the first, are not seen through.
+    mesh_indices: [i32; 2],
     /// Vertices of lines that are drawn faint where hidden, then of those that show through, then of those that do not.
     line_runs: [i32; 3],
 }
@@ -78,8 +81,12 @@ impl GlPainter {
         self.shared.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    pub(crate) fn set_meshes(&self, scene: &Scene) {
-        self.lock().upload.mesh = Some(MeshBuffer::of(&scene.meshes));
+    /// Draws these surfaces; the eye goes through those after the first `opaque`.
+    pub(crate) fn set_meshes(&self, scene: &Scene, opaque: usize) {
+        let corners: usize = scene.meshes.iter().take(opaque).map(|m| 3 * m.faces.len()).sum();
+        let mut shared = self.lock();
+        shared.upload.mesh = Some(MeshBuffer::of(&scene.meshes));
+        shared.upload.opaque = i32::try_from(corners).unwrap_or(i32::MAX);
     }
 
     pub(crate) fn set_lines(&self, scene: &Scene) {
@@ -186,7 +193,7 @@ impl Programs {
                 index_buffer,
                 line_array,
                 line_buffer,
-                mesh_indices: 0,
+                mesh_indices: [0; 2],
                 line_runs: [0; 3],
             })
         }
@@ -205,7 +212,8 @@ impl Programs {
             fill(self.mesh_buffer, &mesh.bytes);
             let indices: Vec<u8> = mesh.indices.iter().flat_map(|k| k.to_ne_bytes()).collect();
             fill(self.index_buffer, &indices);
-            self.mesh_indices = i32::try_from(mesh.indices.len()).unwrap_or(0);
+            let count = i32::try_from(mesh.indices.len()).unwrap_or(0);
+            self.mesh_indices = [count, upload.opaque.min(count)];
         }
         if let Some(lines) = upload.lines {
             fill(self.line_buffer, &lines);
@@ -232,7 +240,22 @@ impl Programs {
                 gl.uniform_3_f32_slice(at(name).as_ref(), &v);
             }
             gl.bind_vertex_array(Some(self.mesh_array));
-            gl.draw_elements(glow::TRIANGLES, self.mesh_indices, glow::UNSIGNED_INT, 0);
+            let [count, opaque] = self.mesh_indices;
+            let strength = at("strength");
+            gl.uniform_1_f32(strength.as_ref(), 1.0);
+            gl.draw_elements(glow::TRIANGLES, opaque, glow::UNSIGNED_INT, 0);
+            if count > opaque {
+                // The nearest layer alone is blended: first its depth, then its colour.
+                let rest =
+                    || gl.draw_elements(glow::TRIANGLES, count - opaque, glow::UNSIGNED_INT, 4 * opaque);
+                gl.color_mask(false, false, false, false);
+                rest();
+                gl.color_mask(true, true, true, true);
+                gl.depth_func(glow::LEQUAL);
+                gl.enable(glow::BLEND);
+                gl.uniform_1_f32(strength.as_ref(), SEEN_THROUGH);
+                rest();
+            }
 
             gl.enable(glow::BLEND);
             gl.depth_mask(false);

@@ -24,6 +24,8 @@ pub(crate) struct View {
     /// Where the view was last on the screen.
     pub(crate) rect: Rect,
     scene: Scene,
+    /// The eye goes through surfaces after so many.
+    opaque: usize,
     bounds: Option<[DVec3; 2]>,
     revision: u64,
     picture: Option<Picture>,
@@ -36,6 +38,17 @@ struct Picture {
     texture: Option<TextureHandle>,
 }
 
+/// How much of a surface that the eye goes through is seen.
+const SEEN_THROUGH: f32 = 0.5;
+
+/// Lets what is behind through.
+fn mix(pixels: &mut [u8], behind: &[u8]) {
+    for (own, other) in pixels.iter_mut().zip(behind) {
+        let mixed = f32::from(*own) * SEEN_THROUGH + f32::from(*other) * (1.0 - SEEN_THROUGH);
+        *own = mixed.round() as u8;
+    }
+}
+
 impl View {
     /// A view that draws by OpenGL where there is a painter, else by the processor.
     pub(crate) fn new(gl: Option<GlPainter>) -> Self {
@@ -44,6 +57,7 @@ impl View {
             solids: Solids::default(),
             rect: Rect::NOTHING,
             scene: Scene::default(),
+            opaque: 0,
             bounds: None,
             revision: 0,
             picture: None,
@@ -51,13 +65,13 @@ impl View {
         }
     }
 
-    /// Shows other surfaces, and the lines and points about them.
-    pub(crate) fn set_scene(&mut self, scene: Scene) {
-        self.scene = scene;
+    /// Shows other surfaces, and the lines and points about them; the eye goes through those after the first `opaque`.
+    pub(crate) fn set_scene(&mut self, scene: Scene, opaque: usize) {
+        (self.scene, self.opaque) = (scene, opaque);
         self.bounds = self.scene.bounds();
         self.revision += 1;
         if let Some(gl) = &self.gl {
-            gl.set_meshes(&self.scene);
+            gl.set_meshes(&self.scene, self.opaque);
             gl.set_lines(&self.scene);
         }
     }
@@ -80,7 +94,7 @@ impl View {
     pub(crate) fn set_painter(&mut self, gl: Option<GlPainter>) {
         self.gl = gl;
         if let Some(gl) = &self.gl {
-            gl.set_meshes(&self.scene);
+            gl.set_meshes(&self.scene, self.opaque);
             gl.set_lines(&self.scene);
         }
     }
@@ -135,7 +149,16 @@ impl View {
             // An empty scene has no picture; the background stays.
             let texture = viewer::render(&self.scene, &camera, &options).ok().map(|image| {
                 let size = [image.width() as usize, image.height() as usize];
-                let image = ColorImage::from_rgb(size, image.rgb());
+                let behind = (self.scene.meshes.len() > self.opaque).then(|| {
+                    let meshes = self.scene.meshes[..self.opaque].to_vec();
+                    viewer::render(&Scene { meshes, ..self.scene.clone() }, &camera, &options).ok()
+                });
+                let mut pixels = image.rgb().to_vec();
+                if let Some(behind) = behind {
+                    let plain = background.0.repeat(pixels.len() / 3);
+                    mix(&mut pixels, behind.as_ref().map_or(&plain, |b| b.rgb()));
+                }
+                let image = ColorImage::from_rgb(size, &pixels);
                 ui.ctx().load_texture("3D view", image, TextureOptions::LINEAR)
             });
             self.picture = Some(Picture { of, texture });

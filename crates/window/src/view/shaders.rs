@@ -27,6 +27,7 @@ uniform vec3 sight;
 uniform vec3 key;
 uniform vec3 fill;
 uniform vec3 up;
+uniform float strength;
 in vec3 v_place;
 in vec3 v_normal;
 in vec4 v_front;
@@ -45,7 +46,7 @@ void main() {
     }
     vec4 color = is_front ? v_front : v_reverse;
     vec3 light = lit(pow(color.rgb, vec3(2.2)), n, to_eye, key, fill, up, color.a > 0.5);
-    out_color = vec4(pow(clamp(light, 0.0, 1.0), vec3(1.0 / 2.2)), 1.0);
+    out_color = vec4(pow(clamp(light, 0.0, 1.0), vec3(1.0 / 2.2)), 1.0) * strength;
 }
 ";
 

@@ -230,6 +230,34 @@ fn curves_are_drawn_on_the_body_in_three_ways() {
 }
 
 #[test]
+fn the_body_is_seen_through_the_cloth_in_x_ray() {
+    let mut window = half_skirt();
+    window.wait(Designer::is_built);
+    window.key(Key::F5);
+    // In the middle of the left front.
+    let [a, b] = ["node centre_front_waist", "node left_side_hip"].map(|n| window.at(n));
+    let at = a + (b - a) * 0.5;
+    window.key(Key::T);
+    let color = |window: &mut Window| {
+        window.steps();
+        let picture = window.harness.render().unwrap();
+        picture.get_pixel(at.x as u32, at.y as u32).0.map(f32::from)
+    };
+    let cloth = color(&mut window);
+    window.key(Key::G);
+    let body = color(&mut window);
+    window.key(Key::G);
+    window.key(Key::X);
+    let through = color(&mut window);
+    assert!((0..3).any(|k| (cloth[k] - body[k]).abs() > 20.0), "{cloth:?} {body:?}: the place shows cloth");
+    for k in 0..3 {
+        assert!((through[k] - 0.5 * (cloth[k] + body[k])).abs() < 3.0, "{cloth:?} {body:?} {through:?}");
+    }
+    window.key(Key::X);
+    assert_eq!(color(&mut window), cloth);
+}
+
+#[test]
 fn a_body_measure_is_dragged_and_is_one_entry() {
     let mut window = Window::sample("princess-dress.json");
     window.wait(Designer::is_built);
