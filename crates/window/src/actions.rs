@@ -558,6 +558,10 @@ impl Designer {
         if self.prompt.is_some() || self.palette.is_some() {
             return;
         }
+        if self.workspace == Workspace::Drawing && self.begin_number(context) {
+            // Letters of units are no tools.
+            return;
+        }
         // Escape has taken the keyboard from a field before this is asked, and was meant for the field.
         let is_written = context.egui_wants_keyboard_input();
         let is_typing = std::mem::replace(&mut self.was_typing, is_written) || is_written;
@@ -572,8 +576,20 @@ impl Designer {
                 action.run(self, context);
             }
         }
+        for (shortcut, text) in ALSO {
+            if !is_typing && context.input_mut(|i| i.consume_shortcut(&shortcut)) {
+                self.run_action(text, context);
+            }
+        }
     }
 }
+
+/// Keys that other programs have taught hands.
+pub(crate) const ALSO: [(KeyboardShortcut, &str); 3] = [
+    (KeyboardShortcut::new(CTRL_SHIFT, Key::Z), "Redo"),
+    (KeyboardShortcut::new(PLAIN, Key::Backspace), "Delete"),
+    (KeyboardShortcut::new(PLAIN, Key::F1), "Keys"),
+];
 
 /// Like `consume_shortcut`, but Shift must be up where it is not asked for; `?` is typed with Shift on most keyboards.
 fn consume(input: &mut egui::InputState, shortcut: &KeyboardShortcut) -> bool {
@@ -604,6 +620,9 @@ mod tests {
         let keys: Vec<String> = all.iter().filter_map(|a| a.shortcut).map(|s| format!("{s:?}")).collect();
         assert_eq!(keys.iter().collect::<BTreeSet<_>>().len(), keys.len(), "{keys:?}");
         assert!(all.iter().all(|a| !a.hint.is_empty()));
+        for (shortcut, text) in ALSO {
+            assert!(texts.contains(text) && !keys.contains(&format!("{shortcut:?}")), "{text}");
+        }
         for text in remedy::ALL.iter().filter(|_| workspace == Workspace::Garment) {
             assert!(texts.contains(text), "{text}");
         }

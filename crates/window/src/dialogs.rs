@@ -6,7 +6,7 @@ use design::draft::{FileKind, Recovery};
 use design::drawings::Making;
 use eframe::egui;
 
-use crate::actions::Action;
+use crate::actions::{ALSO, Action};
 use crate::browsing::{FileWish, PathKind};
 use crate::files::{self, kind_of_name};
 use crate::prompts::{Answer, Next, Purpose};
@@ -221,6 +221,12 @@ pub(crate) fn keys(ui: &mut egui::Ui, actions: &[Action]) -> Answer {
                 ui.monospace(action.keys(ui.ctx()));
                 ui.label(&action.text);
                 ui.weak(&action.hint);
+                ui.end_row();
+            }
+            for (shortcut, text) in ALSO {
+                ui.monospace(ui.ctx().format_shortcut(&shortcut));
+                ui.label(text);
+                ui.weak("also");
                 ui.end_row();
             }
             for (hand, what) in [

@@ -154,11 +154,11 @@ impl Designer {
         }
         if response.drag_stopped_by(PointerButton::Primary) {
             self.board_event(Event::DragEnd { to, add });
+        } else if response.double_clicked() {
+            // Its first click has taken the place.
+            self.board_event(Event::Confirm);
         } else if response.clicked_by(PointerButton::Primary) {
             self.board_event(Event::Click { place: to, add });
-            if response.double_clicked() {
-                self.board_event(Event::Confirm);
-            }
         }
     }
 
@@ -250,7 +250,8 @@ impl Designer {
             }
             return;
         };
-        let trail: Vec<Pos2> = pen.trail(Some(place.at())).into_iter().map(|p| sheet.screen(p)).collect();
+        let to = pen.pulled().map_or(place.at(), |[_, at, _]| at);
+        let trail: Vec<Pos2> = pen.trail(Some(to)).into_iter().map(|p| sheet.screen(p)).collect();
         painter.add(Ink::line(trail, Stroke::new(1.0, LEGAL.gamma_multiply(0.6))));
         self.next_click(painter, place);
         let at = sheet.screen(place.at());
@@ -266,7 +267,7 @@ impl Designer {
             named(ui, at, &format!("snaps to {}", words(snap.kind)));
             texts.push(words(snap.kind).to_owned());
         }
-        if let Some(from) = pen.from() {
+        if let Some(from) = pen.from().filter(|_| pen.pulled().is_none()) {
             let step = place.at() - from;
             let length = self.preferences.unit.text(step.length());
             texts.push(format!("{length} @ {:.1}°", step.to_angle().to_degrees()));
@@ -287,7 +288,7 @@ impl Designer {
         let world = self.board_world();
         let sheet = &self.board.sheet;
         let tool = self.board.pen.tool;
-        if matches!(tool, Tool::Select | Tool::Bend) || self.board.pen.pulled().is_some() {
+        if matches!(tool, Tool::Select | Tool::Bend) {
             return;
         }
         if tool == Tool::Trim
@@ -299,7 +300,11 @@ impl Designer {
             return;
         }
         let mut tried = self.board.pen.clone();
-        for effect in tried.on(Event::Click { place, add: false }, &world) {
+        let event = match tried.pulled() {
+            Some(_) => Event::DragEnd { to: place, add: false },
+            None => Event::Click { place, add: false },
+        };
+        for effect in tried.on(event, &world) {
             if let Effect::Draw { drawing, .. } = effect {
                 for curve in news(world.drawing, &drawing) {
                     painter.add(Ink::line(sheet.line(&curve), Stroke::new(2.0, LEGAL)));

@@ -30,6 +30,8 @@ pub(crate) struct Board {
     radius: f64,
     /// What is being typed.
     typed: String,
+    /// A number was begun on the board: its field wants the keyboard.
+    takes_keyboard: bool,
     sheet: Sheet,
     /// Where the pointer is, mm, and what it means.
     pointer: Option<Place>,
@@ -43,9 +45,17 @@ impl Default for Board {
             snaps_to_grid: true,
             radius: 10.0,
             typed: String::new(),
+            takes_keyboard: false,
             sheet: Sheet::default(),
             pointer: None,
         }
+    }
+}
+
+impl Board {
+    /// The place that the pointer means, mm.
+    pub(crate) fn pointer_at(&self) -> Option<DVec2> {
+        self.pointer.map(|place| place.at())
     }
 }
 
@@ -77,6 +87,19 @@ impl Wish {
         (Self::Corner, "Corner", "Shapes meet as they like at the selected points"),
         (Self::Join, "Join points", "Two selected points become one, in the place of the first"),
     ];
+
+    /// Whether so many lines and points are selected as it needs.
+    fn fits(self, drawing: &Drawing, selection: &[Part]) -> bool {
+        let lines = selection.iter().filter(|p| line(drawing, **p).is_some()).count();
+        let points = selection.iter().filter(|p| matches!(p, Part::Point(_))).count();
+        match self {
+            Self::Level | Self::Plumb | Self::Length => lines > 0,
+            Self::Parallel | Self::Equal => lines > 1,
+            Self::Square => lines == 2,
+            Self::Fixed | Self::Smooth | Self::Corner => points > 0,
+            Self::Join => points == 2,
+        }
+    }
 
     /// The drawing with the wish granted, or why it is not.
     fn granted(self, drawing: &Drawing, selection: &[Part]) -> Result<Drawing, String> {

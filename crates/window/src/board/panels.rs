@@ -78,33 +78,16 @@ impl Designer {
         let field = egui::TextEdit::singleline(&mut self.board.typed).hint_text(hint);
         let field = ui.add(field.desired_width(f32::INFINITY)).labelled_by(label.id);
         let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
-        if entered && !self.board.typed.trim().is_empty() {
-            let text = std::mem::take(&mut self.board.typed);
-            let pointer = self.board.pointer.map(|p| p.at());
-            match Typed::parse(&text, self.preferences.unit) {
-                Some(typed) => self.board_event(Event::Typed { typed, pointer }),
-                None => self
-                    .problem(format!("{text} is no length (12 in), direction (40 @ 30) or place (40; 20)")),
-            }
+        if entered {
+            self.enter_number();
         }
-        let is_idle = self.prompt.is_none() && self.palette.is_none() && ui.memory(|m| m.focused().is_none());
-        let begun = ui.input(|i| {
-            i.events.iter().find_map(|e| match e {
-                egui::Event::Text(t) if t.starts_with(|c: char| c.is_ascii_digit() || c == '-') => {
-                    Some(t.clone())
-                }
-                _ => None,
-            })
-        });
-        if let Some(text) = begun.filter(|_| is_idle) {
-            self.board.typed = text;
+        if std::mem::take(&mut self.board.takes_keyboard) {
             field.request_focus();
             // What is typed next goes behind it.
-            if let Some(mut state) = egui::text_edit::TextEditState::load(ui.ctx(), field.id) {
-                let end = egui::text::CCursor::new(self.board.typed.chars().count());
-                state.cursor.set_char_range(Some(egui::text::CCursorRange::one(end)));
-                state.store(ui.ctx(), field.id);
-            }
+            let mut state = egui::text_edit::TextEditState::load(ui.ctx(), field.id).unwrap_or_default();
+            let end = egui::text::CCursor::new(self.board.typed.chars().count());
+            state.cursor.set_char_range(Some(egui::text::CCursorRange::one(end)));
+            state.store(ui.ctx(), field.id);
         }
         if self.board.pen.tool == Tool::Round {
             ui.horizontal(|ui| {
@@ -113,6 +96,46 @@ impl Designer {
                 ui.add(value).labelled_by(label.id);
             });
         }
+    }
+
+    /// Gives the tool the number that was typed.
+    fn enter_number(&mut self) {
+        let text = std::mem::take(&mut self.board.typed);
+        if text.trim().is_empty() {
+            return;
+        }
+        let pointer = self.board.pointer.map(|p| p.at());
+        match Typed::parse(&text, self.preferences.unit) {
+            Some(typed) => self.board_event(Event::Typed { typed, pointer }),
+            None => {
+                self.problem(format!("{text} is no length (12 in), direction (40 @ 30) or place (40; 20)"))
+            }
+        }
+    }
+
+    /// A digit that is typed while no field has the keyboard begins a number; whether one began. All that a fast hand typed in
+    /// one frame belongs to it, its Enter too.
+    pub(crate) fn begin_number(&mut self, context: &egui::Context) -> bool {
+        if context.memory(|m| m.focused().is_some()) {
+            return false;
+        }
+        let typed: String = context.input(|i| {
+            let texts = i.events.iter().filter_map(|e| match e {
+                egui::Event::Text(text) => Some(text.as_str()),
+                _ => None,
+            });
+            texts.collect()
+        });
+        if !typed.starts_with(|c: char| c.is_ascii_digit() || c == '-') {
+            return false;
+        }
+        self.board.typed = typed;
+        if context.input_mut(|i| i.consume_key(egui::Modifiers::NONE, egui::Key::Enter)) {
+            self.enter_number();
+        } else {
+            self.board.takes_keyboard = true;
+        }
+        true
     }
 
     /// What a field changes of the drawing.
@@ -191,7 +214,9 @@ impl Designer {
             let mut wish = None;
             ui.horizontal_wrapped(|ui| {
                 for (what, name, hint) in Wish::ALL {
-                    if ui.button(name).on_hover_text(hint).clicked() {
+                    if what.fits(&self.session.draft().drawing, &self.board.selection)
+                        && ui.button(name).on_hover_text(hint).clicked()
+                    {
                         wish = Some(what);
                     }
                 }

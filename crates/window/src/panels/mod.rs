@@ -150,6 +150,13 @@ impl Designer {
                 let pen = &self.board.pen;
                 ui.strong(board::pen::Tool::ALL.iter().find(|t| t.0 == pen.tool).map_or("", |t| t.1));
                 ui.label(pen.next_step());
+                let at = self.board.pointer_at().map(|at| {
+                    let [x, y] = [at.x, at.y].map(|v| self.preferences.unit.text(v));
+                    format!("{x}; {y}")
+                });
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                    ui.weak(at.unwrap_or_default());
+                });
                 return;
             }
             let name = Tool::ALL.iter().find(|t| t.0 == self.tool).map_or("", |t| t.1);

@@ -144,6 +144,33 @@ fn a_digit_on_the_board_begins_a_number() {
 }
 
 #[test]
+fn a_number_typed_at_once_is_taken_whole() {
+    let mut window = board();
+    window.key(Key::L);
+    click(&mut window, 0.0, 0.0);
+    // A fast hand: letters of the unit are keys of tools too, and Enter ends rows.
+    for (text, key) in [("4", Key::Num4), ("c", Key::C), ("m", Key::M)] {
+        window.harness.event(eframe::egui::Event::Text(text.to_owned()));
+        window.harness.key_press(key);
+    }
+    window.harness.key_press(Key::Enter);
+    window.steps();
+    assert_eq!(lines(&window), [[DVec2::ZERO, DVec2::new(40.0, 0.0)]], "{}", window.message());
+    // The row goes on.
+    typed(&mut window, "1 cm @ 90");
+    assert_eq!(lines(&window).len(), 2);
+    // A double click ends it, without a line of no length.
+    for (x, y) in [(80.0, 40.0), (80.0, 40.0)] {
+        click(&mut window, x, y);
+    }
+    assert_eq!(lines(&window).len(), 3);
+    assert!(!window.message().contains("length"), "{}", window.message());
+    window.keys(Modifiers::COMMAND, Key::Z);
+    window.keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    assert_eq!(lines(&window).len(), 3, "made again");
+}
+
+#[test]
 fn the_pointer_says_what_it_snaps_to() {
     let mut window = triangle();
     window.key(Key::L);
@@ -295,6 +322,7 @@ fn rules_hold_and_go() {
     window.key(Key::Escape);
     let line = drawing(&window).shapes().next().unwrap().0.number();
     window.click(&format!("line {line}"));
+    assert!(!window.has("Square"), "that takes two lines");
     window.click("Plumb");
     assert_eq!(*window.draft(), before, "{}", window.message());
     // A length is typed, in any unit.
