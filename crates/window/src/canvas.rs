@@ -164,6 +164,9 @@ impl Designer {
             GhostShape::Line(places) => {
                 painter.add(Shape::line(self.on_screen(places), Stroke::new(3.0, color)));
             }
+            GhostShape::Thin(places) => {
+                painter.add(Shape::line(self.on_screen(places), Stroke::new(1.5, color)));
+            }
             GhostShape::Area(places) => area(painter, self.on_screen(places), color),
             GhostShape::Point(place) => {
                 for p in self.on_screen(&[*place]) {

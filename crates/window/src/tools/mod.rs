@@ -115,6 +115,8 @@ pub(crate) struct Ghost {
 pub(crate) enum GhostShape {
     /// A line in space.
     Line(Vec<DVec3>),
+    /// A thin line in space: what is there already.
+    Thin(Vec<DVec3>),
     /// A filled outline in space.
     Area(Vec<DVec3>),
     Point(DVec3),

@@ -123,14 +123,20 @@ struct Over {
     ends: [DVec3; 2],
 }
 
+/// The curve of a profile where its edge is now.
+fn curve(line: &LineSpec, world: &World) -> Option<Profile> {
+    let (Some(Shape::Profile(profile)), [a, b]) = (&line.shape, &line.through[..]) else { return None };
+    let detail = if profile.turn { Detail::Turned } else { Detail::Kept };
+    let drawn = profile.points.iter().map(|p| DVec3::from_array(*p)).collect();
+    Some(Profile::new(drawn).moved(world.place(a)?, world.place(b)?, detail))
+}
+
 fn over(stroke: &Stroke, world: &World) -> Option<Over> {
     let camera = &world.picker.eye.camera;
     world.draft.template.lines.iter().find_map(|(name, line)| {
-        let (Some(Shape::Profile(profile)), [a, b]) = (&line.shape, &line.through[..]) else { return None };
+        let now = curve(line, world)?;
+        let [a, b] = &line.through[..] else { return None };
         let ends = [world.place(a)?, world.place(b)?];
-        let detail = if profile.turn { Detail::Turned } else { Detail::Kept };
-        let drawn = profile.points.iter().map(|p| DVec3::from_array(*p)).collect();
-        let now = Profile::new(drawn).moved(ends[0], ends[1], detail);
         let part = drawn_over(camera, stroke, now.points(), world.pixel_scale)?;
         let middle = part.parts[1][part.parts[1].len() / 2];
         let is_seen = world.picker.sees(middle, SLACK);
@@ -215,7 +221,10 @@ impl Machine for Sketch {
     }
 
     fn ghosts(&self, _: Option<DVec2>, world: &World) -> Vec<Ghost> {
-        let mut out = Vec::new();
+        // Edges are drawn straight; these are the curves that can be drawn over.
+        let curves = world.draft.template.lines.values().filter_map(|line| curve(line, world));
+        let seen = curves.filter(|c| world.picker.sees(c.place(0.5), SLACK));
+        let mut out: Vec<Ghost> = seen.map(|c| Ghost::legal(GhostShape::Thin(c.points().to_vec()))).collect();
         let mut shown = self.plane.clone();
         if let Some(stroke) = self.stroke() {
             // What the stroke so far would replace of a profile.
