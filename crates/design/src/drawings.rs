@@ -34,6 +34,12 @@ pub enum DrawingFileError {
     /// The file, or what would come of the drawing.
     #[error(transparent)]
     Script(#[from] ScriptError),
+    /// More than hands draw, and than the board can be fast with.
+    #[error("the script's drawings have {found} points and more; the board takes {MOST} at most")]
+    TooMany {
+        /// How many there are.
+        found: usize,
+    },
     /// The script draws nothing.
     #[error("the script has no drawing on a plane")]
     NoDrawing,
@@ -43,6 +49,9 @@ pub enum DrawingFileError {
 const CHORD: f64 = 0.05;
 /// More corners than this are no drawing by hand.
 const CORNERS: usize = 100_000;
+
+/// Points that a drawing may have to be edited.
+const MOST: usize = 2000;
 
 /// The script that makes something of a drawing, and what of it was left out, in words.
 ///
@@ -128,10 +137,25 @@ pub fn of_script(text: &str) -> Result<(Drawing, Option<String>), DrawingFileErr
             elsewhere += outlines.len();
             continue;
         }
-        outlines.into_iter().try_for_each(|outline| drawing.add_outline(outline))?;
+        for outline in outlines {
+            let found = drawing.points().count() + corners(outline);
+            if found > MOST {
+                return Err(DrawingFileError::TooMany { found });
+            }
+            drawing.add_outline(outline)?;
+        }
     }
     if plane.is_none() {
         return Err(DrawingFileError::NoDrawing);
     }
     Ok((drawing, (elsewhere > 0).then(|| format!("{elsewhere} outlines on other planes"))))
+}
+
+/// About how many points an outline has.
+fn corners(outline: &Outline) -> usize {
+    match outline {
+        Outline::Polygon(points) | Outline::Polyline(points) | Outline::Spline(points) => points.len(),
+        Outline::Path(parts) => parts.iter().map(corners).sum(),
+        _ => 4,
+    }
 }

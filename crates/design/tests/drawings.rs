@@ -63,6 +63,11 @@ fn what_cannot_be_made_is_told() {
     assert!(matches!(to_script(&open, Making::Sheets), Err(DrawingFileError::NoneClosed)));
     assert!(matches!(to_script(&open, Making::Walls(0.0)), Err(DrawingFileError::Script(_))));
     assert!(matches!(of_script("{}"), Err(DrawingFileError::Script(_))));
+    let many: Vec<[f64; 2]> = (0..3000).map(|k| [f64::from(k), 0.5 * f64::from(k % 7)]).collect();
+    let many = format!(
+        "{{\"toile_script\": 1, \"commands\": [{{\"do\": \"wire\", \"name\": \"w\", \"drawings\": [{{\"polyline\": {many:?}}}]}}]}}"
+    );
+    assert!(matches!(of_script(&many), Err(DrawingFileError::TooMany { found: 3000 })));
     let none = r#"{"toile_script": 1, "commands": [{"do": "undo"}]}"#;
     assert!(matches!(of_script(none), Err(DrawingFileError::NoDrawing)));
 }

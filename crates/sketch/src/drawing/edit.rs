@@ -19,17 +19,20 @@ impl Drawing {
     }
 
     pub(super) fn add(&mut self, shape: Shape) -> Result<ShapeId, DrawingError> {
-        self.whole(|drawing| {
-            let id = ShapeId(drawing.number());
-            // Where a third shape joins, no two can be said to go on in one direction.
-            for end in shape.points() {
-                if let Some(point) = drawing.points.get_mut(end) {
-                    point.smooth = false;
-                }
+        self.whole(|drawing| Ok(drawing.insert(shape)))
+    }
+
+    /// Adds a shape that is checked later.
+    pub(super) fn insert(&mut self, shape: Shape) -> ShapeId {
+        let id = ShapeId(self.number());
+        // Where a third shape joins, no two can be said to go on in one direction.
+        for end in shape.points() {
+            if let Some(point) = self.points.get_mut(end) {
+                point.smooth = false;
             }
-            drawing.shapes.insert(id, shape);
-            Ok(id)
-        })
+        }
+        self.shapes.insert(id, shape);
+        id
     }
 
     fn number(&mut self) -> u32 {

@@ -359,10 +359,10 @@ impl Drawing {
         Ok(drawing)
     }
 
-    /// Adds the curves of an outline; ends that are where the drawing has a point are that point.
+    /// Adds the curves of an outline; ends that are where the drawing has a point are that point. O(curves · points).
     ///
     /// # Errors
-    /// [`DrawingError`].
+    /// [`DrawingError`]: what is wrong with the outline; nothing of it is added then.
     pub fn add_outline(&mut self, outline: &Outline) -> Result<(), DrawingError> {
         let curves = outline.curves()?;
         self.whole(|drawing| drawing.add_curves(curves))
@@ -374,25 +374,27 @@ impl Drawing {
                 && sweep.abs() >= std::f64::consts::TAU
             {
                 let center = self.point_at(center)?;
-                self.add_circle(center, radius)?;
+                self.insert(Shape::Circle { center, radius });
                 continue;
             }
-            let [a, b] = [self.point_at(curve.start())?, self.point_at(curve.end())?];
-            match &curve {
-                Curve::Line { .. } => self.add_line(a, b)?,
-                Curve::Arc { sweep, .. } => {
-                    self.add(Shape::Arc { ends: [a, b], bulge: (sweep / 4.0).tan() })?
+            let ends = [self.point_at(curve.start())?, self.point_at(curve.end())?];
+            let shape = match &curve {
+                Curve::Line { .. } => Shape::Line(ends),
+                Curve::Arc { sweep, .. } => Shape::Arc { ends, bulge: (sweep / 4.0).tan() },
+                Curve::Bezier { points } => {
+                    let handles = [points[1] - self.place(ends[0])?, points[2] - self.place(ends[1])?];
+                    Shape::Bezier { ends, handles }
                 }
-                Curve::Bezier { points } => self.add_bezier(a, points[1], points[2], b)?,
                 Curve::Spline { points, .. } => {
-                    let mut through = vec![a];
+                    let mut through = vec![ends[0]];
                     for p in &points[1..points.len() - 1] {
                         through.push(self.add_point(*p)?);
                     }
-                    through.push(b);
-                    self.add_spline(&through)?
+                    through.push(ends[1]);
+                    Shape::Spline(through)
                 }
             };
+            self.insert(shape);
         }
         Ok(())
     }
