@@ -161,6 +161,9 @@ struct Parts {
     next: u32,
 }
 
+/// Parts of files have numbers up to this; as many are left for edits.
+const NUMBERS: u32 = u32::MAX / 2;
+
 impl From<Drawing> for Parts {
     fn from(d: Drawing) -> Self {
         let (points, shapes) = (d.points.into_iter().collect(), d.shapes.into_iter().collect());
@@ -174,6 +177,11 @@ impl TryFrom<Parts> for Drawing {
     fn try_from(p: Parts) -> Result<Self, DrawingError> {
         let newest = p.points.iter().map(|(id, _)| id.0).chain(p.shapes.iter().map(|(id, _)| id.0)).max();
         let next = p.next.max(newest.unwrap_or_default());
+        if next > NUMBERS {
+            return Err(
+                SketchError::Number { what: "a number of a part", wanted: "2147483647 at most" }.into()
+            );
+        }
         let (points, shapes) = (p.points.into_iter().collect(), p.shapes.into_iter().collect());
         let mut drawing = Self { points, shapes, rules: Vec::new(), next };
         if drawing.points.values().any(|point| !point.at.is_finite()) {
