@@ -11,11 +11,23 @@ use eframe::egui::{self, Color32, ColorImage, Pos2, Rect, TextureHandle, Texture
 use eframe::glow;
 use glam::{DVec2, DVec3};
 use sketch::Camera;
-use viewer::{Color, Lens, RenderOptions, Scene};
+use viewer::{Color, Lens, RenderOptions, Scene, SceneMesh};
 
 pub(crate) use eye::Eye;
 pub(crate) use gl::GlPainter;
 pub(crate) use solids::{Seen, Solids};
+
+/// A surface that is seen. The garment first: what it hides need not be drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Part {
+    Garment,
+    Body,
+}
+
+impl Part {
+    const COUNT: usize = 2;
+    const ALL: [Self; Self::COUNT] = [Self::Garment, Self::Body];
+}
 
 /// What is seen, and from where.
 pub(crate) struct View {
@@ -24,6 +36,8 @@ pub(crate) struct View {
     /// Where the view was last on the screen.
     pub(crate) rect: Rect,
     scene: Scene,
+    /// What the scene's surfaces are, and whether they are closed.
+    parts: Vec<(Part, bool)>,
     bounds: Option<[DVec3; 2]>,
     revision: u64,
     picture: Option<Picture>,
@@ -44,6 +58,7 @@ impl View {
             solids: Solids::default(),
             rect: Rect::NOTHING,
             scene: Scene::default(),
+            parts: Vec::new(),
             bounds: None,
             revision: 0,
             picture: None,
@@ -51,15 +66,34 @@ impl View {
         }
     }
 
-    /// Shows other surfaces, and the lines and points about them.
-    pub(crate) fn set_scene(&mut self, scene: Scene) {
-        self.scene = scene;
+    /// Shows another surface, or none, in place of a part. Of a closed one whose faces look outward the reverse is not drawn.
+    pub(crate) fn set_mesh(&mut self, part: Part, mesh: Option<SceneMesh>, is_closed: bool) {
+        let at = self.parts.iter().position(|(p, _)| *p == part);
+        match (at, mesh) {
+            (Some(k), Some(mesh)) => {
+                self.scene.meshes[k] = mesh;
+                self.parts[k].1 = is_closed;
+            }
+            (Some(k), None) => {
+                self.scene.meshes.remove(k);
+                self.parts.remove(k);
+            }
+            (None, Some(mesh)) => {
+                self.scene.meshes.push(mesh);
+                self.parts.push((part, is_closed));
+            }
+            (None, None) => return,
+        }
         self.bounds = self.scene.bounds();
         self.revision += 1;
-        if let Some(gl) = &self.gl {
-            gl.set_meshes(&self.scene);
-            gl.set_lines(&self.scene);
-        }
+        self.send(part);
+    }
+
+    /// Gives a part to the painter.
+    fn send(&self, part: Part) {
+        let Some(gl) = &self.gl else { return };
+        let shown = self.parts.iter().zip(&self.scene.meshes).find(|((p, _), _)| *p == part);
+        gl.set_mesh(part, shown.map(|(_, mesh)| mesh), shown.is_some_and(|((_, is_closed), _)| *is_closed));
     }
 
     /// Shows other lines and points about the same surfaces.
@@ -79,8 +113,8 @@ impl View {
     /// Draws by OpenGL from now on, or by the processor.
     pub(crate) fn set_painter(&mut self, gl: Option<GlPainter>) {
         self.gl = gl;
+        Part::ALL.into_iter().for_each(|part| self.send(part));
         if let Some(gl) = &self.gl {
-            gl.set_meshes(&self.scene);
             gl.set_lines(&self.scene);
         }
     }
@@ -100,7 +134,7 @@ impl View {
         if let Some(gl) = &self.gl {
             let problem = gl.problem();
             if problem.is_none() {
-                ui.painter().rect_filled(rect, 0.0, ui.visuals().panel_fill);
+                // The ground is the window's own: it is cleared to the panels' colour.
                 ui.painter().add(gl.shape(rect, &self.eye.camera, self.bounds));
                 return None;
             }
@@ -115,7 +149,7 @@ impl View {
     /// The picture is made anew only when the camera, its size or the scene changed.
     fn paint_by_processor(&mut self, ui: &egui::Ui, rect: Rect) {
         let scale = ui.ctx().pixels_per_point();
-        let background = ui.visuals().panel_fill;
+        let background = ui.ctx().global_style().visuals.panel_fill;
         let of = (self.eye.camera, self.revision, background, scale);
         if self.picture.as_ref().is_none_or(|p| p.of != of) {
             let c = &self.eye.camera;
