@@ -25,7 +25,7 @@ use crate::selection::{Element, Mode};
 use crate::session::{OnDisk, Session};
 use crate::tools::{Drawing, Effect, Event, Machine, Tool, World};
 use crate::view::pick::Picker;
-use crate::view::scene::Look;
+use crate::view::scene::{Look, Section};
 use crate::view::{GlPainter, View};
 
 /// What a window begins with.
@@ -95,6 +95,8 @@ pub struct Designer {
     pub(crate) stale: Stale,
     /// The draft whose garment is shown, whole.
     pub(crate) built: Option<Arc<Draft>>,
+    /// The body that the view has, and how it is cut.
+    pub(crate) shown_body: Option<(Arc<Body>, Option<Section>)>,
     pub(crate) kept: VecDeque<(Arc<Draft>, Arc<Body>, Arc<Cloth>)>,
     gl: Option<Arc<glow::Context>>,
     pub(crate) is_framed: bool,
@@ -137,6 +139,7 @@ impl Designer {
             pivot: None,
             stale: Stale::Whole,
             built: None,
+            shown_body: None,
             kept: VecDeque::new(),
             gl: None,
             is_framed: false,
@@ -406,6 +409,11 @@ impl Designer {
 }
 
 impl eframe::App for Designer {
+    /// The ground of panels and view, which draw none of their own.
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        visuals.panel_fill.to_normalized_gamma_f32()
+    }
+
     fn logic(&mut self, context: &egui::Context, _frame: &mut eframe::Frame) {
         let is_dark = context.theme() == egui::Theme::Dark;
         if self.look.is_dark != is_dark {
@@ -423,6 +431,8 @@ impl eframe::App for Designer {
 
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         let context = ui.ctx().clone();
+        // The window is cleared to the panels' colour: panels in panels would lay it on again and again.
+        ui.visuals_mut().panel_fill = egui::Color32::TRANSPARENT;
         let dropped = context.input(|i| i.raw.dropped_files.first().map(|f| f.path().to_path_buf()));
         if let Some(path) = dropped {
             self.ask(crate::prompts::Next::Open(path));

@@ -49,6 +49,8 @@ pub fn run(designer: Designer) -> Result<(), eframe::Error> {
             .with_inner_size([1280.0, 800.0])
             .with_drag_and_drop(true),
         depth_buffer: 24,
+        // The interface is flat: there is nothing to dither, and it costs at every pixel.
+        dithering: false,
         ..eframe::NativeOptions::default()
     };
     eframe::run_native("toile", options, Box::new(|context| Ok(Box::new(designer.with_context(context)))))

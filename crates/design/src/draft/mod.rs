@@ -24,7 +24,7 @@ use sketch::Drawing;
 use template::format::TemplateFile;
 
 pub use autosave::{Autosave, Recovery, recoveries, state_folder};
-pub use body::{BodySource, MEASURES, Mesh, OnBody, measure, set_measure};
+pub use body::{BodySource, DraggedForm, MEASURES, Mesh, OnBody, measure, set_measure};
 pub use build::{BuildError, preview, with_drawn_features};
 pub use edit::Edit;
 pub use error::{DraftFileError, EditError};
