@@ -1,6 +1,6 @@
 //! The document and the pipeline: template and body in, garment, pattern, pictures and report out.
 //!
-//! * [`modelling`]: scripts of modelling commands;
+//! * [`modelling`]: scripts of modelling commands; [`drawings`]: scripts of drawings, drawings of scripts;
 //! * [`mod@regenerate`]: features → construction → flattening → pieces → files;
 //! * [`batch`]: the same for many bodies;
 //! * [`draft`]: a design that is being made: commands, undo, journal, autosave;
@@ -18,6 +18,7 @@ pub mod batch;
 pub mod deflate;
 pub mod document;
 pub mod draft;
+pub mod drawings;
 mod fingerprint;
 mod garment_pattern;
 pub mod model_info;

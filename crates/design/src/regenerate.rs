@@ -197,6 +197,15 @@ pub(crate) fn regenerate_prepared(
     finish(template, file, body, garment, settings, started, progress)
 }
 
+/// A step of an export.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ExportStep {
+    /// A file is made in memory.
+    Making,
+    /// All are made and are written.
+    Writing,
+}
+
 /// From a garment to its pattern and report.
 fn finish(
     template: &Template,
@@ -238,12 +247,21 @@ impl Regenerated {
     /// # Errors
     /// [`RegenerateError::Picture`].
     pub fn files(&self, artifacts: &[Artifact]) -> Result<Vec<OutputFile>, RegenerateError> {
+        self.files_while(artifacts, &|| true)
+    }
+
+    fn files_while(
+        &self,
+        artifacts: &[Artifact],
+        goes_on: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Vec<OutputFile>, RegenerateError> {
         let mut wanted = artifacts.to_vec();
         wanted.sort_unstable();
         wanted.dedup();
         // The pictures take longest, so they start first.
+        let make = |a: &Artifact| if goes_on() { self.make(*a) } else { Err(RegenerateError::Cancelled) };
         let made: Vec<Result<Vec<OutputFile>, RegenerateError>> =
-            wanted.par_iter().rev().with_max_len(1).map(|a| self.make(*a)).collect();
+            wanted.par_iter().rev().with_max_len(1).map(make).collect();
         let mut files = Vec::new();
         for some in made.into_iter().rev() {
             files.extend(some?);
@@ -263,8 +281,27 @@ impl Regenerated {
         artifacts: &[Artifact],
         started: Instant,
     ) -> Result<(), RegenerateError> {
+        self.write_while(folder, artifacts, started, &|_| true)
+    }
+
+    /// The same as long as `progress`, which is told the steps, says yes: before every file that is made, and, last, before
+    /// any is written.
+    ///
+    /// # Errors
+    /// Those of [`write`](Self::write); [`RegenerateError::Cancelled`] when it said no: nothing is written then.
+    pub fn write_while(
+        &mut self,
+        folder: &Path,
+        artifacts: &[Artifact],
+        started: Instant,
+        progress: &(dyn Fn(ExportStep) -> bool + Sync),
+    ) -> Result<(), RegenerateError> {
         let export = Instant::now();
-        write_all(folder, &self.files(artifacts)?)?;
+        let files = self.files_while(artifacts, &|| progress(ExportStep::Making))?;
+        if !progress(ExportStep::Writing) {
+            return Err(RegenerateError::Cancelled);
+        }
+        write_all(folder, &files)?;
         self.report.seconds.export = export.elapsed().as_secs_f64();
         self.report.seconds.total = started.elapsed().as_secs_f64();
         let mut bytes = serde_json::to_vec_pretty(&self.report).unwrap_or_default();

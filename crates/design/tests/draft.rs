@@ -11,6 +11,7 @@ use design::draft::{
 };
 use design::regenerate::Settings;
 use proptest::prelude::*;
+use template::WarmStart;
 use template::format::{At, EaseSpec, NodeSpec};
 
 fn node(curve: &str, line: &str, centre: bool) -> NodeSpec {
@@ -49,7 +50,7 @@ fn a_skirt_from_nothing_is_built() {
     let on = history.draft().body.load(None).unwrap();
     let made = history.draft().build(&on, &Settings::default(), &|_| true).unwrap();
     assert_eq!(made.pattern.pieces.len(), 4);
-    let coarse = preview(history.draft(), &on, 1, &AtomicBool::new(false)).unwrap();
+    let coarse = preview(history.draft(), &on, 1, &WarmStart::default(), &AtomicBool::new(false)).unwrap();
     assert!(coarse.body.check().is_empty());
 }
 

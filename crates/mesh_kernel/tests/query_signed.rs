@@ -145,3 +145,26 @@ fn signs_on_bodies_and_scans() {
         check_signs(name, &body, &band(&body, 300, 0.02, 11));
     }
 }
+
+#[test]
+fn a_moved_mesh_answers_as_a_new_one() {
+    let mut mesh = torus(300.0, 100.0, 48, 24);
+    let before = SignedDistance::new(&mesh);
+    for p in &mut mesh.positions {
+        *p += DVec3::new(50.0 + 0.2 * p.y, 0.1 * p.x, 0.0003 * p.x * p.x);
+    }
+    let (moved, new) = (before.moved(&mesh).unwrap(), SignedDistance::new(&mesh));
+    let mut points = band(&mesh, 1500, 60.0, 11);
+    points.extend(mesh.positions.iter().step_by(5));
+    for p in points {
+        // At a side both faces are as near: which one is told hangs on the hierarchy.
+        let (got, wanted) = (moved.signed(p), new.signed(p));
+        assert_eq!((got.distance, got.normal), (wanted.distance, wanted.normal), "{p}");
+        assert!(got.point.distance(wanted.point) < 1e-9, "{p}");
+    }
+    // Other faces, and a mesh with a hole, must be prepared anew.
+    let faces = mesh.faces.split_off(1);
+    assert!(before.moved(&TriMesh::new(mesh.positions.clone(), faces.clone())).is_none());
+    let open = TriMesh::new(mesh.positions, faces);
+    assert!(SignedDistance::new(&open).moved(&open).is_none());
+}

@@ -6,10 +6,12 @@ use std::collections::BTreeMap;
 
 use dress_form_tape::tapes;
 use mesh_kernel::TriMesh;
+use mesh_kernel::query::ClosestPoint;
 use rayon::prelude::*;
 use reference::dress_form::{
-    DressForm, Figure, FormError, FormOptions, HEADLESS_HEIGHT_RATIO, Measurements, Preset, presets,
+    DressForm, Figure, FormError, FormOptions, HEADLESS_HEIGHT_RATIO, Measurements, Pliable, Preset, presets,
 };
+use reference::human::{HumanOptions, TiedFeatures, extract};
 
 fn build(m: &Measurements) -> DressForm {
     DressForm::build(m, &FormOptions::default()).unwrap_or_else(|e| panic!("{m:?}: {e}"))
@@ -225,4 +227,63 @@ fn measurement_files_take_known_names_only() {
     assert!(serde_json::from_str::<Measurements>(r#"{"busts": 100}"#).is_err());
     let resolved = m.resolve().unwrap();
     assert_eq!(resolved.to_measurements().resolve().unwrap(), resolved);
+}
+
+#[test]
+fn a_pliable_form_follows_its_measurements() {
+    let base = Preset::find("eu-38").unwrap().measurements.clone();
+    let of = base.resolve().unwrap();
+    let body = extract(&build(&base).mesh, &HumanOptions::default()).unwrap();
+    let pliable = Pliable::build(&base, &FormOptions { triangles: 6_500, ..FormOptions::default() }).unwrap();
+    let tied = TiedFeatures::new(&body, &pliable.mesh()).unwrap();
+    let changes: [(&str, Measurements); 7] = [
+        ("nothing", base.clone()),
+        ("waist", Measurements { waist: Some(of.waist - 3.0), ..base.clone() }),
+        ("bust", Measurements { bust: Some(of.bust + 4.0), ..base.clone() }),
+        ("hip", Measurements { hip: Some(of.hip + 5.0), ..base.clone() }),
+        ("thigh", Measurements { thigh: Some(of.thigh + 2.0), ..base.clone() }),
+        ("height", Measurements { height: Some(of.height + 6.0), ..base.clone() }),
+        ("neck", Measurements { neck: Some(of.neck + 1.5), ..base.clone() }),
+    ];
+    for (name, m) in changes {
+        let mesh = pliable.at(&m).unwrap();
+        let built = extract(&build(&m).mesh, &HumanOptions::default()).unwrap();
+        let moved = tied.moved(mesh, m.resolve().unwrap().height / of.height);
+        assert_eq!(moved.mesh.faces, pliable.mesh().faces);
+        let near = ClosestPoint::new(&built.mesh);
+        let mut off: Vec<f64> =
+            moved.mesh.positions.iter().map(|p| near.closest(*p).unwrap().distance).collect();
+        off.sort_by(f64::total_cmp);
+        let (middle, worst) = (off[off.len() / 2], off[off.len() - 1]);
+        assert!(middle < 0.5 && worst < 4.0, "{name}: {middle} in the middle, {worst} at most");
+        // Where the high hip is found hangs on a profile that is nearly even: it leaps between like bodies.
+        let is_settled = |name: &str| !name.starts_with("high_hip");
+        for (curve, girth) in built.girths.iter().filter(|(name, _)| is_settled(name)) {
+            let got = moved.girths[curve];
+            assert!((got - girth).abs() < 0.015 * girth, "{name}: {curve} is {got} instead of {girth}");
+        }
+        for (curve, there) in built.features.curves.iter().filter(|(name, _)| is_settled(name)) {
+            let here = &moved.features.curves[curve];
+            let height = |c: &reference::FeatureCurve| {
+                let all = c.points.iter().map(|p| p.y);
+                [all.clone().fold(f64::MAX, f64::min), all.fold(f64::MIN, f64::max)]
+            };
+            let ([low, high], [from, to]) = (height(there), height(here));
+            if there.closed && high - low < 1e-6 {
+                assert!(to - from < 1e-6, "{name}: {curve} is no longer level");
+            }
+            let apart = (low - from).abs().max((high - to).abs());
+            assert!(apart < 12.0, "{name}: {curve} is {apart} off in height");
+        }
+        for (point, there) in &built.features.points {
+            let apart = moved.features.points[point].position.distance(there.position);
+            assert!(apart < 12.0, "{name}: {point} is {apart} off");
+        }
+        let asked = m.resolve().unwrap();
+        for (curve, asked) in [("waist", asked.waist), ("hip", asked.hip)] {
+            assert!((moved.girths[curve] - 10.0 * asked).abs() < 3.0, "{name}: {curve}");
+        }
+    }
+    // Nobody's measurements are refused.
+    assert!(pliable.at(&Measurements { waist: Some(20.0), ..base }).is_err());
 }

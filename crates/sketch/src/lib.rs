@@ -2,7 +2,7 @@
 //!
 //! * [`Camera`]: places to pixels and back; [`Stroke`], [`Stabiliser`]: what a hand draws, made steady;
 //! * [`pick_edges`]: which template edges a stroke means; [`fitted_plane`], [`bisecting_plane`], [`profiles`]: what it makes of
-//!   them (Wang et al., feature templates, section 4.1.4);
+//!   them (Wang et al., feature templates, section 4.1.4); [`redrawn`]: a part of a curve drawn again;
 //! * [`Curve`]: line, arc, Bézier curve, spline, each with points, tangents, curvatures and length;
 //! * [`Outline`]: what a person draws, as data: a rectangle, a circle, a polygon, curves end to end;
 //! * [`Path`]: curves end to end, checked, to be sampled to a tolerance;
@@ -31,6 +31,7 @@ mod outline;
 mod path;
 mod pick;
 mod profile;
+mod redraw;
 mod stroke;
 
 pub use branches::{Branch, order_of_branches};
@@ -41,7 +42,8 @@ pub use drawing::{
 };
 pub use error::SketchError;
 pub use outline::Outline;
-pub use path::{Path, PathPoint};
+pub use path::{Path, PathPoint, polygon_holds};
 pub use pick::{Clear, PICK_DISTANCE, PickOptions, PickedEdge, Sight, SpaceEdge, pick_edges};
 pub use profile::{DrawnProfile, ProfileOptions, bisecting_plane, fitted_plane, profiles};
+pub use redraw::{DrawnOver, drawn_over, redrawn};
 pub use stroke::{Stabiliser, Stroke};

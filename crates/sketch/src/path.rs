@@ -135,6 +135,15 @@ impl Path {
     }
 }
 
+/// Whether a closed polygon holds a place: whether an odd number of its sides lie to the right of it. O(points).
+pub fn polygon_holds(points: &[DVec2], p: DVec2) -> bool {
+    let sides = points.iter().zip(points.iter().cycle().skip(1));
+    let crossed = |(a, b): &(&DVec2, &DVec2)| {
+        (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
+    };
+    sides.filter(crossed).count() % 2 == 1
+}
+
 /// Where a closed polygon crosses or touches itself.
 fn crossing(points: &[DVec2]) -> Option<DVec2> {
     let n = points.len();

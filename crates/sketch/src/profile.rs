@@ -126,17 +126,7 @@ pub fn profiles(
         let on_plane: Option<Vec<DVec3>> = fine.iter().map(|at| camera.unproject(*at, plane)).collect();
         let raw = spaced(&on_plane.ok_or(SketchError::SeenEdgeOn)?, count);
         let [a, b] = edges[pick.edge].ends;
-        let (gap_a, gap_b) = (a - raw[0], b - raw[count - 1]);
-        let ease = |t: f64| t * t * (3.0 - 2.0 * t);
-        let moved: Vec<DVec3> = raw
-            .iter()
-            .enumerate()
-            .map(|(k, p)| {
-                let t = k as f64 / (count - 1) as f64;
-                *p + ease(1.0 - t) * gap_a + ease(t) * gap_b
-            })
-            .collect();
-        let mut points = spaced(&moved, count);
+        let mut points = spaced(&eased(&raw, [a, b]), count);
         points[0] = a;
         points[count - 1] = b;
         out.push(DrawnProfile { edge: pick.edge, points });
@@ -144,8 +134,21 @@ pub fn profiles(
     Ok(out)
 }
 
+/// Evenly spaced points moved so that they begin and end at two places: what is missing at either end is added with a weight that
+/// runs from 1 there to 0 at the other end, smoothly.
+pub(crate) fn eased(points: &[DVec3], [a, b]: [DVec3; 2]) -> Vec<DVec3> {
+    let last = points.len() - 1;
+    let (gap_a, gap_b) = (a - points[0], b - points[last]);
+    let ease = |t: f64| t * t * (3.0 - 2.0 * t);
+    let moved = |(k, p): (usize, &DVec3)| {
+        let t = k as f64 / last as f64;
+        *p + ease(1.0 - t) * gap_a + ease(t) * gap_b
+    };
+    points.iter().enumerate().map(moved).collect()
+}
+
 /// `count` points evenly spaced along a polyline.
-fn spaced(points: &[DVec3], count: usize) -> Vec<DVec3> {
+pub(crate) fn spaced(points: &[DVec3], count: usize) -> Vec<DVec3> {
     let mut sums = vec![0.0];
     for w in points.windows(2) {
         sums.push(sums[sums.len() - 1] + w[0].distance(w[1]));

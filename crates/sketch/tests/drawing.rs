@@ -366,3 +366,41 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_third_shape_ends_a_smooth_point() {
+    let mut drawing = Drawing::default();
+    let [a, b, c, d] = points(&mut drawing, [v(0.0, 0.0), v(50.0, 50.0), v(100.0, 0.0), v(50.0, 90.0)]);
+    drawing.add_bezier(a, v(10.0, 40.0), v(30.0, 60.0), b).unwrap();
+    drawing.add_line(b, c).unwrap();
+    drawing.set_smooth(b, true).unwrap();
+    drawing.add_line(b, d).unwrap();
+    assert!(!drawing.is_smooth(b).unwrap());
+    drawing.move_point(b, v(55.0, 45.0)).unwrap();
+}
+
+#[test]
+fn damaged_drawings_are_not_read() {
+    let (mut drawing, corners, sides) = square();
+    drawing.add_rule(Rule::Level(sides[0])).unwrap();
+    drawing.add_rule(Rule::Fixed(corners[0], v(0.0, 0.0))).unwrap();
+    let text = serde_json::to_string(&drawing).unwrap();
+    assert_eq!(serde_json::from_str::<Drawing>(&text).unwrap(), drawing);
+    let corner = corners[3].number();
+    for (good, bad) in [
+        (format!("\"line\":[{corner},"), "\"line\":[77,".to_owned()),
+        (format!("\"level\":{}", sides[0].number()), "\"level\":77".to_owned()),
+        ("\"fixed\":[1".to_owned(), "\"fixed\":[99".to_owned()),
+        ("\"smooth\":false".to_owned(), "\"smooth\":true".to_owned()),
+        ("\"points\":".to_owned(), "\"dots\":".to_owned()),
+    ] {
+        let damaged = text.replacen(&good, &bad, 1);
+        assert_ne!(damaged, text, "{good}");
+        assert!(serde_json::from_str::<Drawing>(&damaged).is_err(), "{bad}");
+    }
+    // Numbers go on after the newest, whatever the file says.
+    let low = text.replace("\"next\":8", "\"next\":1");
+    assert_ne!(low, text);
+    let mut read: Drawing = serde_json::from_str(&low).unwrap();
+    assert_eq!(read.add_point(v(1.0, 1.0)).unwrap().number(), 9);
+}

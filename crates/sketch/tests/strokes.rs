@@ -6,7 +6,7 @@
 use glam::{DQuat, DVec2, DVec3};
 use sketch::{
     Camera, Clear, PickOptions, Plane, ProfileOptions, Projection, Ray, Sight, SpaceEdge, Stabiliser, Stroke,
-    bisecting_plane, fitted_plane, pick_edges, profiles,
+    bisecting_plane, drawn_over, fitted_plane, pick_edges, profiles, redrawn,
 };
 
 /// Cameras about the origin: both lenses, four directions, three sizes.
@@ -234,4 +234,63 @@ fn the_string_follows_only_when_it_is_taut() {
     string.push(DVec2::new(30.0, 0.0));
     assert_eq!(string.points()[1], DVec2::new(20.0, 0.0));
     assert_eq!(string.finish(DVec2::new(30.0, 0.0)).len(), 3);
+}
+
+/// A bent curve before the camera, seen whole, and a place on it by its share.
+fn bow(camera: &Camera) -> Vec<DVec3> {
+    let at = |k: u32| {
+        let t = f64::from(k) / 64.0;
+        let up = 30.0 * (std::f64::consts::PI * t).sin();
+        camera.target + camera.right() * (120.0 * t - 60.0) + camera.up * up
+    };
+    (0..=64).map(at).collect()
+}
+
+#[test]
+fn a_part_that_is_drawn_over_is_replaced_and_the_rest_stays() {
+    for camera in cameras() {
+        let curve = bow(&camera);
+        let plane = Plane { point: camera.target, normal: camera.back };
+        let scale = camera.size.y / 480.0;
+        // From a quarter to three quarters, straight: the bow's top is cut off. Either way round.
+        let part: Vec<DVec3> = (0..=40).map(|k| curve[16].lerp(curve[48], f64::from(k) / 40.0)).collect();
+        for against in [false, true] {
+            let stroke = if against {
+                drawn(&camera, part.iter().rev().copied())
+            } else {
+                drawn(&camera, part.iter().copied())
+            };
+            let over = drawn_over(&camera, &stroke, &curve, scale).unwrap();
+            assert_eq!(over.against, against);
+            let [before, replaced, after] = &over.parts;
+            assert!(
+                replaced[0].distance(curve[16]) < 1.0 && replaced.last().unwrap().distance(curve[48]) < 1.0
+            );
+            assert_eq!((before[0], *after.last().unwrap()), (curve[0], curve[64]));
+            let new = redrawn(&camera, &stroke, &over, &plane, &ProfileOptions::default()).unwrap();
+            assert_eq!((new[0], new[64]), (curve[0], curve[64]));
+            let rise = |p: &DVec3| (*p - camera.target).dot(camera.up);
+            let top = new.iter().map(rise).fold(0.0, f64::max);
+            assert!(top < 22.5, "{top}: cut at {}", rise(&curve[16]));
+            let low = curve[..12].iter().chain(&curve[53..]);
+            for p in low {
+                let off = new.windows(2).map(|w| {
+                    let t = ((*p - w[0]).dot(w[1] - w[0]) / (w[1] - w[0]).length_squared()).clamp(0.0, 1.0);
+                    w[0].lerp(w[1], t).distance(*p)
+                });
+                let off = off.fold(f64::INFINITY, f64::min);
+                assert!(off < 0.6, "the rest is off by {off}");
+            }
+        }
+        // A stroke that only touches the curve, crosses it, or begins beside it replaces nothing.
+        let right = camera.right();
+        for ends in [
+            [curve[16], curve[16] + right],
+            [curve[32] + camera.up * 30.0, curve[32] - camera.up * 30.0],
+            [curve[16] + camera.up * 40.0, curve[48]],
+        ] {
+            let stroke = drawn(&camera, (0..=20).map(|k| ends[0].lerp(ends[1], f64::from(k) / 20.0)));
+            assert_eq!(drawn_over(&camera, &stroke, &curve, scale), None);
+        }
+    }
 }

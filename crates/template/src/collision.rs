@@ -13,7 +13,7 @@ use mesh_kernel::query::Crossings;
 use rayon::prelude::*;
 
 use crate::error::TemplateError;
-use crate::fairing::{FactorError, Flap, SparseFactor, SymmetricPattern};
+use crate::fairing::{FactorError, Flap, SparseFactor};
 use crate::refine::{NONE, Refined};
 use crate::skin::{Sight, Skin};
 
@@ -45,6 +45,12 @@ const ACTIVE_STEPS: usize = 12;
 /// Extra clearance a round for triangles that still cross, mm.
 const CROSSING_STEP: f64 = 1.5;
 
+/// What a garment's obstacle problem leaves for the next one.
+pub(crate) struct Contact {
+    factor: SparseFactor,
+    touching: Vec<bool>,
+}
+
 /// The obstacle problem of one garment; keeps its symbolic factor.
 pub(crate) struct Drape<'a> {
     refined: &'a Refined,
@@ -74,6 +80,7 @@ impl<'a> Drape<'a> {
         clearance: Vec<f64>,
         level: Vec<bool>,
         symmetric: bool,
+        earlier: Option<Contact>,
     ) -> Result<Self, TemplateError> {
         let n = refined.flat.len();
         let faces: Vec<[u32; 3]> = (0..refined.ids.len()).flat_map(|s| refined.welded_faces(s)).collect();
@@ -108,9 +115,11 @@ impl<'a> Drape<'a> {
         let contact = 1e5 * diagonal.get(n / 2).copied().unwrap_or(1.0);
         let places = flaps.iter().flat_map(|f| entries(f).map(|(i, j, _)| [i, j]));
         let places = places.chain(pairs.iter().map(|p| p.0));
-        let pattern = SymmetricPattern::new(n, places, &refined.flat).map_err(|e| failed(&e))?;
-        let factor = SparseFactor::new(pattern);
-        let touching = vec![false; n];
+        let (earlier, touching) = earlier.map(|c| (c.factor, c.touching)).unzip();
+        let mut factor = SparseFactor::reused(earlier, n, places, &refined.flat).map_err(|e| failed(&e))?;
+        let touching = touching.filter(|t| t.len() == n).unwrap_or_else(|| vec![false; n]);
+        let bending = flaps.iter().flat_map(|f| entries(f).map(|(.., v)| v));
+        factor.set_values(bending.chain(pairs.iter().map(|p| -p.1)));
         Ok(Self {
             refined,
             skin,
@@ -125,6 +134,11 @@ impl<'a> Drape<'a> {
             level,
             symmetric,
         })
+    }
+
+    /// What the next garment of the same faces can begin with.
+    pub(crate) fn into_contact(self) -> Contact {
+        Contact { factor: self.factor, touching: self.touching }
     }
 
     /// Begins the next search with the contacts of a coarser garment: nodes keep their numbers on their surfaces.
@@ -295,9 +309,7 @@ impl<'a> Drape<'a> {
                 diagonal[*a as usize] += k;
                 diagonal[*b as usize] += k;
             }
-            let bending = self.flaps.iter().flat_map(|f| entries(f).map(|(.., v)| v));
-            let values = bending.chain(self.pairs.iter().map(|p| -p.1));
-            self.factor.refactor(values, &diagonal).map_err(|e| failed(&e))?;
+            self.factor.refactor_with(&diagonal).map_err(|e| failed(&e))?;
             let rhs: Vec<f64> =
                 (0..n).map(|w| if active[w] { self.contact * (gaps[w] + MARGIN) } else { 0.0 }).collect();
             let apply = |x: &[f64], out: &mut [f64]| {

@@ -3,10 +3,11 @@
 use std::collections::BTreeSet;
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use crate::error::TemplateError;
 use crate::fairing::plate::Hold;
-use crate::fairing::{Flap, Plate, Umbrella, flaps};
+use crate::fairing::{Flap, Plate, SparseFactor, Umbrella, flaps};
 use crate::format::Interior;
 use crate::layout::{Layout, LayoutLine};
 use crate::lines::{self, Profile};
@@ -36,7 +37,25 @@ struct Group {
     surfaces: Vec<usize>,
     hold: Vec<Hold>,
     plate: Option<Plate>,
-    flaps: Vec<Flap>,
+}
+
+/// Surfaces that are to be faired as one.
+pub(crate) struct Flat {
+    surfaces: Vec<usize>,
+    faces: Vec<[u32; 3]>,
+    /// The bending stencils, over welded nodes.
+    pub(crate) flaps: Vec<Flap>,
+}
+
+impl Flat {
+    /// All of a garment.
+    pub(crate) fn all(layout: &Layout, refined: &Refined) -> Vec<Self> {
+        let flat = |surfaces: Vec<usize>| {
+            let faces: Vec<[u32; 3]> = surfaces.iter().flat_map(|s| refined.welded_faces(*s)).collect();
+            Self { flaps: flaps(&refined.flat, &faces), surfaces, faces }
+        };
+        surface_groups(layout).into_par_iter().map(flat).collect()
+    }
 }
 
 /// A template on its way to a garment: topology, lines and factors, ready to be placed again and again.
@@ -55,31 +74,34 @@ impl<'a> Construction<'a> {
         lines: &'a [LayoutLine],
         refined: &'a Refined,
         method: Method,
+        flats: Vec<Flat>,
+        mut earlier: Vec<Option<SparseFactor>>,
     ) -> Result<Self, TemplateError> {
-        let mut groups = Vec::new();
-        for surfaces in surface_groups(layout) {
-            let faces: Vec<[u32; 3]> = surfaces.iter().flat_map(|s| refined.welded_faces(*s)).collect();
-            groups.push(Group {
-                flaps: flaps(&refined.flat, &faces),
-                surfaces,
-                hold: Vec::new(),
-                plate: None,
-            });
-        }
-        let holds = holds(layout, lines, refined, &groups);
-        for (group, hold) in groups.iter_mut().zip(holds) {
-            if method == Method::Plate {
-                let plate = Plate::new(group.flaps.clone(), &hold, &refined.flat);
-                group.plate = Some(plate.map_err(|e| fairing_error(layout, &group.surfaces, &e))?);
-            }
-            group.hold = hold;
-        }
+        let holds = Holds::new(layout, lines, refined, &flats);
+        earlier.resize_with(flats.len(), || None);
+        // Groups are factored side by side: none needs another one for that.
+        let group = |(g, (flat, earlier)): (usize, (Flat, Option<SparseFactor>))| {
+            let hold = holds.of(g, &flat);
+            let Flat { surfaces, flaps, .. } = flat;
+            let plate = match method {
+                Method::Plate => {
+                    let plate = Plate::reusing(earlier, flaps, &hold, &refined.flat);
+                    Some(plate.map_err(|e| fairing_error(layout, &surfaces, &e))?)
+                }
+                Method::Umbrella { .. } | Method::UmbrellaLimit => None,
+            };
+            Ok(Group { surfaces, hold, plate })
+        };
+        let groups = flats.into_par_iter().zip(earlier).enumerate().with_max_len(1).map(group);
+        // Of several problems the first group's, on any number of threads.
+        let groups: Vec<Result<Group, TemplateError>> = groups.collect();
+        let groups = groups.into_iter().collect::<Result<_, _>>()?;
         Ok(Self { layout, lines, refined, groups, method })
     }
 
-    /// The bending stencils of all groups, over welded nodes.
-    pub(crate) fn flaps(&self) -> impl Iterator<Item = &Flap> + Clone {
-        self.groups.iter().flat_map(|g| &g.flaps)
+    /// The factors of all groups, for a construction of the same faces.
+    pub(crate) fn into_factors(self) -> Vec<Option<SparseFactor>> {
+        self.groups.into_iter().map(|g| g.plate.and_then(Plate::into_factor)).collect()
     }
 
     /// The positions of all welded nodes for given places of the template nodes and curves of the lines.
@@ -184,29 +206,49 @@ fn surface_groups(layout: &Layout) -> Vec<Vec<usize>> {
     out
 }
 
-/// How each welded node takes part in each group's fairing.
-fn holds(layout: &Layout, lines: &[LayoutLine], refined: &Refined, groups: &[Group]) -> Vec<Vec<Hold>> {
-    let count = refined.flat.len();
-    let mut group_of = vec![0usize; layout.surfaces.len()];
-    for (g, group) in groups.iter().enumerate() {
-        group.surfaces.iter().for_each(|s| group_of[*s] = g);
-    }
-    // The first group of a node's surfaces moves it; for the later ones it stands.
-    let mut owner = vec![usize::MAX; count];
-    let mut shared = vec![false; count];
-    for (s, weld) in refined.weld.iter().enumerate() {
-        for w in weld {
-            let o = &mut owner[*w as usize];
-            shared[*w as usize] |= *o != usize::MAX && *o != group_of[s];
-            *o = (*o).min(group_of[s]);
+/// How welded nodes take part in the fairing of groups.
+struct Holds<'a> {
+    layout: &'a Layout,
+    lines: &'a [LayoutLine],
+    refined: &'a Refined,
+    group_of: Vec<usize>,
+    /// The first group of a node's surfaces moves it; for the later ones it stands.
+    owner: Vec<usize>,
+    /// Nodes in more than one group.
+    shared: Vec<bool>,
+    held_line: Vec<bool>,
+    /// Template nodes on lines.
+    on_line: Vec<bool>,
+}
+
+impl<'a> Holds<'a> {
+    fn new(layout: &'a Layout, lines: &'a [LayoutLine], refined: &'a Refined, groups: &[Flat]) -> Self {
+        let count = refined.flat.len();
+        let mut group_of = vec![0usize; layout.surfaces.len()];
+        for (g, group) in groups.iter().enumerate() {
+            group.surfaces.iter().for_each(|s| group_of[*s] = g);
         }
+        let mut owner = vec![usize::MAX; count];
+        let mut shared = vec![false; count];
+        for (s, weld) in refined.weld.iter().enumerate() {
+            for w in weld {
+                let o = &mut owner[*w as usize];
+                shared[*w as usize] |= *o != usize::MAX && *o != group_of[s];
+                *o = (*o).min(group_of[s]);
+            }
+        }
+        let held_line = lines.iter().map(|l| l.hold.unwrap_or(l.shape.is_some())).collect();
+        let mut on_line = vec![false; layout.nodes.len()];
+        lines.iter().flat_map(|l| &l.nodes).for_each(|n| on_line[*n as usize] = true);
+        Self { layout, lines, refined, group_of, owner, shared, held_line, on_line }
     }
-    let held_line: Vec<bool> = lines.iter().map(|l| l.hold.unwrap_or(l.shape.is_some())).collect();
-    let mut out = Vec::with_capacity(groups.len());
-    for (g, group) in groups.iter().enumerate() {
+
+    /// How each node takes part in the fairing of group `g`.
+    fn of(&self, g: usize, group: &Flat) -> Vec<Hold> {
+        let (layout, refined) = (self.layout, self.refined);
+        let count = refined.flat.len();
         let mut hold = vec![Hold::Fixed; count];
-        let faces: Vec<[u32; 3]> = group.surfaces.iter().flat_map(|s| refined.welded_faces(*s)).collect();
-        let rim = rim(count, &faces);
+        let rim = rim(count, &group.faces);
         let mut template_edge = vec![0.0f64; count];
         let mut template_ends = vec![0u32; count];
         for s in &group.surfaces {
@@ -224,17 +266,16 @@ fn holds(layout: &Layout, lines: &[LayoutLine], refined: &Refined, groups: &[Gro
         for s in &group.surfaces {
             for (v, w) in refined.weld[*s].iter().enumerate() {
                 let w = *w as usize;
-                if owner[w] != g {
+                if self.owner[w] != g {
                     continue;
                 }
                 // On a free edge, or where only other groups go on: on the curve, unless that is free on purpose.
                 let edge = rim[w];
                 hold[w] = match refined.tags[*s][v] {
                     Tag::Template(n) => {
-                        let on_line = lines.iter().any(|l| l.nodes.contains(&n));
                         let spacing = template_edge[w] / f64::from(template_ends[w].max(1));
                         match layout.surfaces[*s].interior {
-                            _ if edge || on_line || shared[w] => Hold::Fixed,
+                            _ if edge || self.on_line[n as usize] || self.shared[w] => Hold::Fixed,
                             Interior::Pinned => Hold::Fixed,
                             Interior::Near => Hold::Drawn(NEAR / (spacing * spacing).max(1.0)),
                             Interior::Free => Hold::Free,
@@ -242,8 +283,11 @@ fn holds(layout: &Layout, lines: &[LayoutLine], refined: &Refined, groups: &[Gro
                     }
                     Tag::Line { line, .. } => {
                         let l = line as usize;
-                        let free =
-                            if edge { lines[l].hold == Some(false) && !shared[w] } else { !held_line[l] };
+                        let free = if edge {
+                            self.lines[l].hold == Some(false) && !self.shared[w]
+                        } else {
+                            !self.held_line[l]
+                        };
                         if free { Hold::Free } else { Hold::Fixed }
                     }
                     Tag::Inside => Hold::Free,
@@ -251,26 +295,18 @@ fn holds(layout: &Layout, lines: &[LayoutLine], refined: &Refined, groups: &[Gro
             }
         }
         // A joint with a single use in this group is a fixed curve (T5), also inside the surface.
-        let mut uses = vec![0u8; count];
         for joint in refined.body.joint_ids() {
             let all = refined.body.joint(joint).uses();
             let rank = |k: usize| refined.ids.iter().position(|id| *id == all[k].surface).unwrap_or(0);
-            let inside = (0..all.len()).filter(|k| group_of[rank(*k)] == g).count();
-            if inside == 1 {
-                let k = (0..all.len()).find(|k| group_of[rank(*k)] == g).unwrap_or(0);
+            let mut inside = (0..all.len()).filter(|k| self.group_of[rank(*k)] == g);
+            if let (Some(k), None) = (inside.next(), inside.next()) {
                 for v in refined.body.joint_nodes(joint, k) {
-                    uses[refined.weld[rank(k)][v as usize] as usize] = 1;
+                    hold[refined.weld[rank(k)][v as usize] as usize] = Hold::Fixed;
                 }
             }
         }
-        for (h, u) in hold.iter_mut().zip(&uses) {
-            if *u == 1 {
-                *h = Hold::Fixed;
-            }
-        }
-        out.push(hold);
+        hold
     }
-    out
 }
 
 /// Nodes at edges with one face.

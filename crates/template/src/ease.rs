@@ -128,6 +128,17 @@ impl Secant {
         Self { push: 0.0, slope: GIRTH_PER_PUSH, last: None, too_small: None, too_large: None }
     }
 
+    /// Begins with the offset and the slope of another search, and that far on.
+    pub(crate) fn warm(push: f64, slope: f64, farther: f64) -> Self {
+        let push = (push + farther / slope).clamp(-FARTHEST, FARTHEST);
+        Self { push, slope, ..Self::new() }
+    }
+
+    /// Girth that a millimetre of offset adds.
+    pub(crate) fn slope(&self) -> f64 {
+        self.slope
+    }
+
     /// Forgets what other garments gave, keeps the offset and the slope.
     pub(crate) fn restart(&mut self) {
         *self = Self { push: self.push, slope: self.slope, ..Self::new() };

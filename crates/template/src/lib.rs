@@ -31,7 +31,7 @@ pub use garment::{
     Garment, GarmentLine, GarmentPiece, GarmentSurface, Mark, PieceEdge, Seam, Seconds, SurfaceChain,
 };
 pub use place::{SCALE_STATURE, node_frame, node_places};
-pub use regenerate::{Progress, Reference, RegenerateOptions, regenerate};
+pub use regenerate::{Progress, Reference, RegenerateOptions, WarmStart, regenerate};
 pub use skin::Prepared;
 
 /// A template that was read, checked and written out.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 use glam::DVec3;
@@ -9,10 +10,11 @@ use mesh_kernel::TriMesh;
 use reference::{FeatureCurve, Features};
 
 use crate::Template;
-use crate::collision::{CollisionReport, Drape};
-use crate::construct::{Construction, Method};
+use crate::collision::{CollisionReport, Contact, Drape};
+use crate::construct::{Construction, Flat, Method};
 use crate::ease::{Secant, body_girth, garment_girth};
 use crate::error::TemplateError;
+use crate::fairing::SparseFactor;
 use crate::format::check::DEEPEST;
 use crate::garment::{self, Garment, Seconds};
 use crate::layout::{Layout, LayoutLine};
@@ -49,6 +51,44 @@ pub struct RegenerateOptions<'a> {
     pub progress: Option<&'a Progress<'a>>,
     /// The body's search structures, where they are at hand; made anew else.
     pub prepared: Option<&'a Prepared>,
+    /// What the preview before left, and what this one leaves to the next. Whole garments know nothing of it.
+    pub warm: Option<&'a WarmStart>,
+}
+
+/// What a preview leaves for the next one, which differs little from it: offsets that gave the eases, contacts with the body,
+/// and symbolic factors, which hold as long as the template's faces do. What no longer fits is not used.
+#[derive(Default)]
+pub struct WarmStart(Mutex<Warm>);
+
+#[derive(Default)]
+struct Warm {
+    /// Where the template's nodes were without ease.
+    places: Vec<DVec3>,
+    eases: BTreeMap<String, WarmEase>,
+    factors: Vec<Option<SparseFactor>>,
+    contact: Option<Contact>,
+}
+
+impl Warm {
+    /// Whether the offsets still lead the search: nodes in the body can have several that give one ease, so after a leap it
+    /// must begin as that of a whole garment does.
+    fn leads(&self, places: &[DVec3], eases: &[Level]) -> bool {
+        let is_near = |(p, q): (&DVec3, &DVec3)| p.distance_squared(*q) <= LEAP * LEAP;
+        let is_found = |level: &Level| {
+            let found = self.eases.get(level.name);
+            found.is_some_and(|f| (f.wanted - level.wanted).abs() <= LEAP * std::f64::consts::TAU)
+        };
+        self.places.len() == places.len()
+            && self.places.iter().zip(places).all(is_near)
+            && eases.iter().all(is_found)
+    }
+}
+
+/// An ease as it was found.
+struct WarmEase {
+    push: f64,
+    slope: f64,
+    wanted: f64,
 }
 
 /// An ease within this is right, mm.
@@ -59,6 +99,8 @@ const EASE_TOLERANCE: f64 = 10.0;
 const FINE_AIM: f64 = 3.0;
 /// Rounds of the ease solver.
 const EASE_ROUNDS: usize = 12;
+/// Nodes that move farther from one preview to the next have leapt, mm.
+const LEAP: f64 = 10.0;
 /// Rounds on the fine garment after a search on the coarse one.
 const FINE_ROUNDS: usize = 5;
 /// A garment with as many faces is fine enough to measure girths on: some 60 chords round a hip, 0.3 mm short.
@@ -134,13 +176,18 @@ impl<'a> Stage<'a> {
         refined: &'a Refined,
         skin: &'a Skin<'a>,
         method: Method,
+        warm: &mut Warm,
     ) -> Result<Self, TemplateError> {
         let layout = &template.layout;
-        let construction = Construction::new(layout, lines, refined, method)?;
-        let flaps = construction.flaps().copied().collect();
+        let flats = Flat::all(layout, refined);
+        let flaps = flats.iter().flat_map(|f| &f.flaps).copied().collect();
         let (clearance, level) = node_wishes(layout, lines, refined, template.file().clearance);
-        let drape = Drape::new(refined, skin, flaps, clearance, level, layout.symmetric)?;
-        Ok(Self { refined, construction, drape })
+        let (factors, contact) = (std::mem::take(&mut warm.factors), warm.contact.take());
+        let (construction, drape) = rayon::join(
+            || Construction::new(layout, lines, refined, method, flats, factors),
+            || Drape::new(refined, skin, flaps, clearance, level, layout.symmetric, contact),
+        );
+        Ok(Self { refined, construction: construction?, drape: drape? })
     }
 }
 
@@ -200,17 +247,28 @@ pub fn regenerate(
     let build = |levels: u8| Refined::new(layout, &lines, &patches, &joint_specs, &first.positions, levels);
     let mut refined = build(levels)?;
     // Girths are searched on a coarser garment, where everything is cheap, and then put right on the fine one.
-    let coarse_level = (0..levels).find(|l| coarse << (2 * l) >= COARSE_FACES);
-    let coarse_refined = coarse_level.filter(|_| !layout.ease.is_empty()).map(build).transpose()?;
+    let mut warm = match options.warm.filter(|_| options.preview) {
+        Some(warm) => std::mem::take(&mut *warm.0.lock().unwrap_or_else(PoisonError::into_inner)),
+        None => Warm::default(),
+    };
+    let mut eases = ease_levels(layout, reference.features, &mut warnings)?;
+    let is_led = warm.leads(&first.positions, &eases);
+    let coarse_level = (0..levels).find(|l| coarse << (2 * l) >= COARSE_FACES).filter(|_| !is_led);
+    let coarse_refined = coarse_level.map(build).transpose()?;
     seconds.topology = clock.stage(0.3, "factoring")?;
 
-    let stage = |refined| Stage::new(template, &lines, refined, &skin, options.method);
-    let mut fine = stage(&refined)?;
-    let mut rough = coarse_refined.as_ref().map(stage).transpose()?;
-    let crossings = prepared.crossings();
+    let stage = |refined, warm: &mut Warm| Stage::new(template, &lines, refined, &skin, options.method, warm);
+    let mut fine = stage(&refined, &mut warm)?;
+    let rough = coarse_refined.as_ref().map(|coarse| stage(coarse, &mut Warm::default()));
+    let mut rough = rough.transpose()?;
+    let crossings = || prepared.crossings(reference.mesh);
     seconds.factor = clock.stage(0.4, "fairing")?;
 
-    let mut eases = ease_levels(layout, reference.features, &mut warnings)?;
+    for level in &mut eases {
+        if let Some(before) = warm.eases.get(level.name).filter(|_| is_led) {
+            level.secant = Secant::warm(before.push, before.slope, level.wanted - before.wanted);
+        }
+    }
     let build = |push: BTreeMap<String, f64>, stage: &Stage| {
         let mut placed = placing.place_all(&push)?;
         crowding::apply(&moves, &mut placed.positions, &skin);
@@ -246,7 +304,7 @@ pub fn regenerate(
             break (positions, moved);
         }
         if settled {
-            let more = fine.drape.push_out(&mut positions, usize::MAX, Some(crossings))?;
+            let more = fine.drape.push_out(&mut positions, usize::MAX, Some(crossings()))?;
             moved.iter_mut().zip(more).for_each(|(m, v)| *m += v);
             if fine.drape.mend(&mut positions, 0.5 * file.clearance.max(1.0)) > 0 {
                 warnings.push("some nodes inside the body had to be moved to the skin one by one".into());
@@ -256,7 +314,7 @@ pub fn regenerate(
     };
     let mut collision = CollisionReport::default();
     if !options.preview {
-        collision = fine.drape.report(&positions, &moved, crossings);
+        collision = fine.drape.report(&positions, &moved, crossings());
     }
     let mut ease = BTreeMap::new();
     for (level, faces) in eases.iter().zip(&faces) {
@@ -275,14 +333,22 @@ pub fn regenerate(
             collision.nodes_inside, collision.faces_crossing
         ));
     }
-    drop(fine);
+    if let Some(keep) = options.warm.filter(|_| options.preview) {
+        let found = |l: &Level| WarmEase { push: l.secant.push, slope: l.secant.slope(), wanted: l.wanted };
+        let (places, eases) =
+            (first.positions, eases.iter().map(|l| (l.name.to_owned(), found(l))).collect());
+        let (factors, contact) = (fine.construction.into_factors(), Some(fine.drape.into_contact()));
+        *keep.0.lock().unwrap_or_else(PoisonError::into_inner) = Warm { places, eases, factors, contact };
+    } else {
+        drop(fine);
+    }
     drop(rough);
     if let Some(tolerance) = file.adaptive.filter(|_| !options.preview) {
         // Wider triangles may cut into the body where narrow ones did not: those are split.
         let crossing = |faces: &[[u32; 3]]| {
             let mut found = vec![false; faces.len()];
             let mesh = TriMesh::new(positions.clone(), faces.to_vec());
-            crossings.faces_crossing(&mesh).iter().for_each(|(face, _)| found[*face as usize] = true);
+            crossings().faces_crossing(&mesh).iter().for_each(|(face, _)| found[*face as usize] = true);
             collision.faces_crossing = found.iter().filter(|f| **f).count();
             found
         };

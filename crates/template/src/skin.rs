@@ -1,6 +1,6 @@
 //! The reference mesh as the garment meets it: distance with sign, and outward directions smooth enough to push along.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use glam::DVec3;
 use mesh_kernel::TriMesh;
@@ -15,17 +15,21 @@ const NORMAL_ROUNDS: usize = 6;
 pub struct Prepared {
     distance: Arc<SignedDistance>,
     normals: Arc<Vec<DVec3>>,
-    crossings: Arc<Crossings>,
+    /// Made when the first garment asks: previews never do.
+    crossings: Arc<OnceLock<Crossings>>,
 }
 
 impl Prepared {
     /// Prepares a body's mesh. O(n log n).
     pub fn new(mesh: &TriMesh) -> Self {
-        Self {
-            distance: Arc::new(SignedDistance::new(mesh)),
-            normals: Arc::new(smooth_normals(mesh)),
-            crossings: Arc::new(Crossings::new(mesh)),
-        }
+        let (distance, normals) = rayon::join(|| SignedDistance::new(mesh), || smooth_normals(mesh));
+        Self { distance: Arc::new(distance), normals: Arc::new(normals), crossings: Arc::default() }
+    }
+
+    /// The same for a body of the same faces whose nodes have moved a little, as [`SignedDistance::moved`] can. O(n).
+    pub fn moved(&self, mesh: &TriMesh) -> Option<Self> {
+        let (distance, normals) = rayon::join(|| self.distance.moved(mesh), || smooth_normals(mesh));
+        Some(Self { distance: Arc::new(distance?), normals: Arc::new(normals), crossings: Arc::default() })
     }
 
     /// Distance of a place to the body's skin, mm, negative inside. About O(log n).
@@ -33,8 +37,9 @@ impl Prepared {
         self.distance.signed(p).distance
     }
 
-    pub(crate) fn crossings(&self) -> &Crossings {
-        &self.crossings
+    /// Crossings of faces with those of `mesh`, which must be the one that was prepared.
+    pub(crate) fn crossings(&self, mesh: &TriMesh) -> &Crossings {
+        self.crossings.get_or_init(|| Crossings::new(mesh))
     }
 }
 

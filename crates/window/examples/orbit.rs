@@ -41,6 +41,10 @@ impl eframe::App for Turning {
         }
     }
 
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        self.designer.clear_color(visuals)
+    }
+
     fn logic(&mut self, context: &egui::Context, frame: &mut eframe::Frame) {
         self.designer.logic(context, frame);
     }
@@ -99,6 +103,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut native = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default().with_inner_size([1280.0, 800.0]),
         depth_buffer: 24,
+        dithering: false,
         ..eframe::NativeOptions::default()
     };
     native.glow_options.vsync = false;

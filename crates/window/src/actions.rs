@@ -3,8 +3,10 @@
 use design::draft::{Command, Edit};
 use eframe::egui::{self, Key, KeyboardShortcut, Modifiers};
 
+use crate::board::{Wish, pen};
 use crate::designer::{Designer, Prompt};
 use crate::files::LIBRARY;
+use crate::layout::Layout;
 use crate::preferences::Theme;
 use crate::prompts::Next;
 use crate::selection::Mode;
@@ -33,6 +35,19 @@ impl Menu {
         (Self::Window, "Window"),
     ];
 }
+
+/// What the window is for at the moment.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Workspace {
+    /// Body, template, garment, pattern.
+    #[default]
+    Garment,
+    /// The drawing in the plane.
+    Drawing,
+}
+
+/// The switch between them.
+pub(crate) const DRAWING_BOARD: &str = "Drawing board";
 
 /// Something that can be done.
 pub(crate) struct Action {
@@ -142,7 +157,7 @@ const ROWS: &[Row] = &[
         Some((PLAIN, Key::Enter)),
         "End what the tool has under way: fill the face, join the edges",
         |d, _, _| {
-            d.tool_event(Event::Confirm);
+            d.confirm();
         },
     ),
     (
@@ -151,7 +166,7 @@ const ROWS: &[Row] = &[
         Some((PLAIN, Key::Escape)),
         "Leave what is under way; then select nothing",
         |d, _, _| {
-            d.tool_event(Event::Cancel);
+            d.cancel();
         },
     ),
     (
@@ -160,16 +175,7 @@ const ROWS: &[Row] = &[
         Some((PLAIN, Key::Delete)),
         "Delete what is selected: nodes, edges, faces, profiles of edges",
         |d, _, _| {
-            d.delete();
-        },
-    ),
-    (
-        Menu::Edit,
-        remedy::AUTOMATIC_JOINTS,
-        None,
-        "Joints make themselves wherever surfaces share edges",
-        |d, _, _| {
-            d.edit(Edit::AutomaticJoints);
+            d.delete_selected();
         },
     ),
     (Menu::Edit, "Stop building", None, "Stop what is being built or made in the background", |d, _, _| {
@@ -180,23 +186,14 @@ const ROWS: &[Row] = &[
         "Select all",
         Some((CTRL, Key::A)),
         "Everything of the kind that clicks select",
-        |d, _, _| d.select_all(),
+        |d, _, _| d.select_everything(),
     ),
     (
         Menu::View,
         "Show all",
         Some((PLAIN, Key::Home)),
         "Move the eye so that everything is seen",
-        |d, _, _| d.frame_all(),
-    ),
-    (
-        Menu::View,
-        "Show selection",
-        Some((PLAIN, Key::Period)),
-        "Move the eye to what is selected",
-        |d, _, _| {
-            d.frame_selection();
-        },
+        |d, _, _| d.show_everything(),
     ),
     (
         Menu::Window,
@@ -212,7 +209,82 @@ const ROWS: &[Row] = &[
     }),
 ];
 
+const GARMENT_ROWS: &[Row] = &[
+    (Menu::Window, "Keep layout …", None, "The panels as they are, under a name", |d, _, _| {
+        d.prompt = Some(Prompt::layout());
+    }),
+    (Menu::Window, "Usual layout", None, "All panels, as large as they were at first", |d, _, _| {
+        d.take_layout(Layout::default());
+    }),
+    (
+        Menu::Edit,
+        "Rename",
+        Some((PLAIN, Key::F2)),
+        "Another name for what is selected: node, patch, profile, joint",
+        |d, _, _| d.name_selected(),
+    ),
+    (
+        Menu::Edit,
+        remedy::AUTOMATIC_JOINTS,
+        None,
+        "Joints make themselves wherever surfaces share edges",
+        |d, _, _| {
+            d.edit(Edit::AutomaticJoints);
+        },
+    ),
+    (
+        Menu::View,
+        "Show selection",
+        Some((PLAIN, Key::Period)),
+        "Move the eye to what is selected",
+        |d, _, _| {
+            d.frame_selection();
+        },
+    ),
+];
+
+const DRAWING_ROWS: &[Row] = &[
+    (Menu::File, "Open a drawing …", None, "Take the drawing of a script onto the board", |d, _, _| {
+        d.prompt_drawing()
+    }),
+    (
+        Menu::File,
+        "Write a script …",
+        None,
+        "Sheets, walls or wires of the drawing, as commands for toile model",
+        |d, _, _| d.prompt_script(),
+    ),
+];
+
 const SWITCHES: &[Switch] = &[
+    (
+        Menu::Window,
+        DRAWING_BOARD,
+        Some((PLAIN, Key::F3)),
+        "Draw outlines in the plane, for sheets, walls and wires",
+        |d, _, _| d.switch_workspace(),
+        |d, _| d.workspace == Workspace::Drawing,
+    ),
+    (
+        Menu::Window,
+        "Draw without OpenGL",
+        None,
+        "By the processor: slower, right on every machine",
+        |d, _, _| d.toggle_painter(),
+        |d, _| !d.view.is_by_gl(),
+    ),
+];
+
+const DRAWING_SWITCHES: &[Switch] = &[(
+    Menu::View,
+    "Snap to grid",
+    Some((PLAIN, Key::G)),
+    "Places snap to the grid that is shown",
+    |d, _, _| d.board.snaps_to_grid = !d.board.snaps_to_grid,
+    |d, _| d.board.snaps_to_grid,
+)];
+
+const GARMENT_SWITCHES: &[Switch] = &[
     (
         Menu::Edit,
         "Mirror",
@@ -233,7 +305,7 @@ const SWITCHES: &[Switch] = &[
         Menu::View,
         "X-ray",
         Some((PLAIN, Key::X)),
-        "See and take what is hidden",
+        "See through the cloth, and take what is hidden",
         |d, _, _| d.relook(|l| l.x_ray = !l.x_ray),
         |d, _| d.look.x_ray,
     ),
@@ -273,14 +345,6 @@ const SWITCHES: &[Switch] = &[
         },
         |d, _| d.look.section.is_some(),
     ),
-    (
-        Menu::Window,
-        "Draw without OpenGL",
-        None,
-        "By the processor: slower, right on every machine",
-        |d, _, _| d.toggle_painter(),
-        |d, _| !d.view.is_by_gl(),
-    ),
 ];
 
 const VIEWS: [(viewer::View, &str, Key); 6] = [
@@ -299,76 +363,101 @@ const THEMES: [(Theme, &str); 3] =
 
 const UNITS: [&str; 3] = ["Millimetres", "Centimetres", "Inches"];
 
-/// Every action.
-pub(crate) fn actions() -> Vec<Action> {
+/// Every action of a workspace.
+fn actions(workspace: Workspace) -> Vec<Action> {
     let key = |k: Option<(Modifiers, Key)>| k.map(|(m, k)| KeyboardShortcut::new(m, k));
     let mut out = Vec::new();
     let mut add = |menu, text: String, shortcut, hint: String, which, run: Run, is_on| {
         out.push(Action { text, hint, menu, shortcut, is_on, run, which });
     };
-    for (menu, text, shortcut, hint, run) in ROWS {
+    let (own_rows, own_switches) = match workspace {
+        Workspace::Garment => (GARMENT_ROWS, GARMENT_SWITCHES),
+        Workspace::Drawing => (DRAWING_ROWS, DRAWING_SWITCHES),
+    };
+    for (menu, text, shortcut, hint, run) in ROWS.iter().chain(own_rows) {
         add(*menu, (*text).to_owned(), key(*shortcut), (*hint).to_owned(), 0, *run, None);
     }
     for (k, (name, _)) in LIBRARY.iter().enumerate() {
         let hint = "A template that comes with the program, on the average form".to_owned();
         add(Menu::File, format!("Template: {name}"), None, hint, k, |d, _, k| d.ask(Next::Library(k)), None);
     }
-    for (menu, text, shortcut, hint, run, is_on) in SWITCHES {
+    for (menu, text, shortcut, hint, run, is_on) in SWITCHES.iter().chain(own_switches) {
         add(*menu, (*text).to_owned(), key(*shortcut), (*hint).to_owned(), 0, *run, Some(*is_on));
     }
-    for (k, (_, name, tool_key, hint)) in Tool::ALL.iter().enumerate() {
-        let shortcut = key(Some((PLAIN, *tool_key)));
-        let run: Run = |d, _, k| d.take_tool(Tool::ALL[k].0);
-        add(
-            Menu::Tool,
-            (*name).to_owned(),
-            shortcut,
-            (*hint).to_owned(),
-            k,
-            run,
-            Some(|d, k| d.tool == Tool::ALL[k].0),
-        );
+    if workspace == Workspace::Garment {
+        for (k, (_, name, tool_key, hint)) in Tool::ALL.iter().enumerate() {
+            let shortcut = key(Some((PLAIN, *tool_key)));
+            let run: Run = |d, _, k| d.take_tool(Tool::ALL[k].0);
+            add(
+                Menu::Tool,
+                (*name).to_owned(),
+                shortcut,
+                (*hint).to_owned(),
+                k,
+                run,
+                Some(|d, k| d.tool == Tool::ALL[k].0),
+            );
+        }
+        for (k, (_, name)) in Drawing::ALL.iter().enumerate() {
+            let hint = "How the curve tool draws on the body".to_owned();
+            let run: Run = |d, _, k| {
+                d.drawing = Drawing::ALL[k].0;
+                d.take_tool(Tool::Feature);
+            };
+            add(
+                Menu::Tool,
+                format!("Curve: {name}"),
+                None,
+                hint,
+                k,
+                run,
+                Some(|d, k| d.drawing == Drawing::ALL[k].0),
+            );
+        }
+        for (k, (_, name)) in Mode::ALL.iter().enumerate() {
+            let shortcut = key(Some((PLAIN, MODE_KEYS[k])));
+            let run: Run = |d, _, k| d.take_mode(Mode::ALL[k].0);
+            let hint = "Clicks select these".to_owned();
+            let is_on: fn(&Designer, usize) -> bool = |d, k| d.session.mode == Mode::ALL[k].0;
+            add(Menu::Select, (*name).to_owned(), shortcut, hint, k, run, Some(is_on));
+        }
+        for (k, (_, name, view_key)) in VIEWS.iter().enumerate() {
+            let run: Run = |d, _, k| d.view.eye.look(VIEWS[k].0);
+            add(
+                Menu::View,
+                (*name).to_owned(),
+                key(Some((PLAIN, *view_key))),
+                "Look along an axis".to_owned(),
+                k,
+                run,
+                None,
+            );
+        }
+        for (k, (_, name)) in Colouring::ALL.iter().enumerate() {
+            let run: Run = |d, _, k| d.relook(|l| l.colouring = Colouring::ALL[k].0);
+            let hint = "What the garment's colours mean".to_owned();
+            let is_on: fn(&Designer, usize) -> bool = |d, k| d.look.colouring == Colouring::ALL[k].0;
+            add(Menu::View, format!("Colours: {name}"), None, hint, k, run, Some(is_on));
+        }
     }
-    for (k, (_, name)) in Drawing::ALL.iter().enumerate() {
-        let hint = "How the curve tool draws on the body".to_owned();
-        let run: Run = |d, _, k| {
-            d.drawing = Drawing::ALL[k].0;
-            d.take_tool(Tool::Feature);
-        };
-        add(
-            Menu::Tool,
-            format!("Curve: {name}"),
-            None,
-            hint,
-            k,
-            run,
-            Some(|d, k| d.drawing == Drawing::ALL[k].0),
-        );
+    if workspace == Workspace::Drawing {
+        for (k, (_, name, tool_key, hint)) in pen::Tool::ALL.iter().enumerate() {
+            let run: Run = |d, _, k| d.take_pen(pen::Tool::ALL[k].0);
+            let is_on: fn(&Designer, usize) -> bool = |d, k| d.board.pen.tool == pen::Tool::ALL[k].0;
+            let shortcut = key(Some((PLAIN, *tool_key)));
+            add(Menu::Tool, (*name).to_owned(), shortcut, (*hint).to_owned(), k, run, Some(is_on));
+        }
+        for (k, (_, name, hint)) in Wish::ALL.iter().enumerate() {
+            let run: Run = |d, _, k| d.grant(Wish::ALL[k].0);
+            add(Menu::Select, (*name).to_owned(), None, (*hint).to_owned(), k, run, None);
+        }
     }
-    for (k, (_, name)) in Mode::ALL.iter().enumerate() {
-        let shortcut = key(Some((PLAIN, MODE_KEYS[k])));
-        let run: Run = |d, _, k| d.take_mode(Mode::ALL[k].0);
-        let hint = "Clicks select these".to_owned();
-        let is_on: fn(&Designer, usize) -> bool = |d, k| d.session.mode == Mode::ALL[k].0;
-        add(Menu::Select, (*name).to_owned(), shortcut, hint, k, run, Some(is_on));
-    }
-    for (k, (_, name, view_key)) in VIEWS.iter().enumerate() {
-        let run: Run = |d, _, k| d.view.eye.look(VIEWS[k].0);
-        add(
-            Menu::View,
-            (*name).to_owned(),
-            key(Some((PLAIN, *view_key))),
-            "Look along an axis".to_owned(),
-            k,
-            run,
-            None,
-        );
-    }
-    for (k, (_, name)) in Colouring::ALL.iter().enumerate() {
-        let run: Run = |d, _, k| d.relook(|l| l.colouring = Colouring::ALL[k].0);
-        let hint = "What the garment's colours mean".to_owned();
-        let is_on: fn(&Designer, usize) -> bool = |d, k| d.look.colouring == Colouring::ALL[k].0;
-        add(Menu::View, format!("Colours: {name}"), None, hint, k, run, Some(is_on));
+    if workspace == Workspace::Garment {
+        for (k, (name, hint)) in Layout::PANELS.iter().enumerate() {
+            let is_on: fn(&Designer, usize) -> bool = |d, k| d.preferences.layout.panels[k].is_shown;
+            let run: Run = |d, _, k| d.toggle_panel(k);
+            add(Menu::Window, (*name).to_owned(), None, (*hint).to_owned(), k, run, Some(is_on));
+        }
     }
     for (k, name) in UNITS.iter().enumerate() {
         let run: Run = |d, _, k| d.prefer(|p| p.unit = LengthUnit::ALL[k]);
@@ -395,9 +484,71 @@ pub(crate) fn actions() -> Vec<Action> {
 }
 
 impl Designer {
+    /// Everything that can be done by name in this workspace.
+    pub(crate) fn actions(&self) -> Vec<Action> {
+        let mut all = actions(self.workspace);
+        if self.workspace == Workspace::Garment {
+            all.extend(self.preferences.layouts.iter().enumerate().map(|(which, named)| Action {
+                text: format!("Layout: {}", named.name),
+                hint: "Panels as they were kept under this name".to_owned(),
+                menu: Menu::Window,
+                shortcut: None,
+                is_on: None,
+                run: |d, _, k| d.take_named_layout(k),
+                which,
+            }));
+        }
+        all
+    }
+
+    pub(crate) fn switch_workspace(&mut self) {
+        self.settle();
+        self.notices.forget_problems();
+        self.workspace = match self.workspace {
+            Workspace::Garment => Workspace::Drawing,
+            Workspace::Drawing => Workspace::Garment,
+        };
+        self.follow_drawing();
+    }
+
+    fn confirm(&mut self) {
+        match self.workspace {
+            Workspace::Garment => self.tool_event(Event::Confirm),
+            Workspace::Drawing => self.board_event(pen::Event::Confirm),
+        }
+    }
+
+    fn cancel(&mut self) {
+        match self.workspace {
+            Workspace::Garment => self.tool_event(Event::Cancel),
+            Workspace::Drawing => self.board_event(pen::Event::Cancel),
+        }
+    }
+
+    fn delete_selected(&mut self) {
+        match self.workspace {
+            Workspace::Garment => self.delete(),
+            Workspace::Drawing => self.delete_parts(),
+        }
+    }
+
+    fn select_everything(&mut self) {
+        match self.workspace {
+            Workspace::Garment => self.select_all(),
+            Workspace::Drawing => self.select_parts(),
+        }
+    }
+
+    fn show_everything(&mut self) {
+        match self.workspace {
+            Workspace::Garment => self.frame_all(),
+            Workspace::Drawing => self.show_drawing(),
+        }
+    }
+
     /// Runs the action of this text.
     pub(crate) fn run_action(&mut self, text: &str, context: &egui::Context) {
-        if let Some(action) = actions().into_iter().find(|a| a.text == text) {
+        if let Some(action) = self.actions().into_iter().find(|a| a.text == text) {
             action.run(self, context);
         }
     }
@@ -407,8 +558,14 @@ impl Designer {
         if self.prompt.is_some() || self.palette.is_some() {
             return;
         }
-        let is_typing = context.egui_wants_keyboard_input();
-        for action in actions() {
+        if self.workspace == Workspace::Drawing && self.begin_number(context) {
+            // Letters of units are no tools.
+            return;
+        }
+        // Escape has taken the keyboard from a field before this is asked, and was meant for the field.
+        let is_written = context.egui_wants_keyboard_input();
+        let is_typing = std::mem::replace(&mut self.was_typing, is_written) || is_written;
+        for action in self.actions() {
             let Some(shortcut) = action.shortcut else { continue };
             // Letters are text then, and these are the field's own.
             let is_text = matches!(shortcut.logical_key, Key::A | Key::Z | Key::Y);
@@ -419,8 +576,20 @@ impl Designer {
                 action.run(self, context);
             }
         }
+        for (shortcut, text) in ALSO {
+            if !is_typing && context.input_mut(|i| i.consume_shortcut(&shortcut)) {
+                self.run_action(text, context);
+            }
+        }
     }
 }
+
+/// Keys that other programs have taught hands.
+pub(crate) const ALSO: [(KeyboardShortcut, &str); 3] = [
+    (KeyboardShortcut::new(CTRL_SHIFT, Key::Z), "Redo"),
+    (KeyboardShortcut::new(PLAIN, Key::Backspace), "Delete"),
+    (KeyboardShortcut::new(PLAIN, Key::F1), "Keys"),
+];
 
 /// Like `consume_shortcut`, but Shift must be up where it is not asked for; `?` is typed with Shift on most keyboards.
 fn consume(input: &mut egui::InputState, shortcut: &KeyboardShortcut) -> bool {
@@ -439,13 +608,22 @@ mod tests {
 
     #[test]
     fn texts_and_keys_are_each_one_action() {
-        let all = actions();
+        for workspace in [Workspace::Garment, Workspace::Drawing] {
+            are_each_one_action(workspace);
+        }
+    }
+
+    fn are_each_one_action(workspace: Workspace) {
+        let all = actions(workspace);
         let texts: BTreeSet<&str> = all.iter().map(|a| a.text.as_str()).collect();
         assert_eq!(texts.len(), all.len());
         let keys: Vec<String> = all.iter().filter_map(|a| a.shortcut).map(|s| format!("{s:?}")).collect();
         assert_eq!(keys.iter().collect::<BTreeSet<_>>().len(), keys.len(), "{keys:?}");
         assert!(all.iter().all(|a| !a.hint.is_empty()));
-        for text in remedy::ALL {
+        for (shortcut, text) in ALSO {
+            assert!(texts.contains(text) && !keys.contains(&format!("{shortcut:?}")), "{text}");
+        }
+        for text in remedy::ALL.iter().filter(|_| workspace == Workspace::Garment) {
             assert!(texts.contains(text), "{text}");
         }
     }

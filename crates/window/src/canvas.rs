@@ -4,13 +4,14 @@ use eframe::egui::{self, Align2, Color32, FontId, PointerButton, Pos2, Rect, Sha
 use glam::{DVec2, DVec3};
 
 use crate::designer::Designer;
+use crate::region::Region;
 use crate::selection::Element;
 use crate::tools::{Event, Ghost, GhostShape, Tool};
 
-const SELECTED: Color32 = Color32::from_rgb(245, 150, 20);
-const HOVERED: Color32 = Color32::from_rgb(255, 205, 90);
-const LEGAL: Color32 = Color32::from_rgb(40, 150, 240);
-const ILLEGAL: Color32 = Color32::from_rgb(220, 50, 50);
+pub(crate) const SELECTED: Color32 = Color32::from_rgb(245, 150, 20);
+pub(crate) const HOVERED: Color32 = Color32::from_rgb(255, 205, 90);
+pub(crate) const LEGAL: Color32 = Color32::from_rgb(40, 150, 240);
+pub(crate) const ILLEGAL: Color32 = Color32::from_rgb(220, 50, 50);
 
 impl Designer {
     pub(crate) fn canvas(&mut self, ui: &mut egui::Ui) {
@@ -80,7 +81,9 @@ impl Designer {
             // A drag is known by its first movement; what it takes lay where it began.
             let from = ui.input(|i| i.pointer.press_origin()).unwrap_or(at);
             let from = self.view.local(from);
-            self.tool_event_at(Event::DragStart { from }, pixel_scale);
+            let is_lasso = self.tool == Tool::Select && ui.input(|i| i.modifiers.command);
+            let start = if is_lasso { Event::LassoStart { from } } else { Event::DragStart { from } };
+            self.tool_event_at(start, pixel_scale);
         }
         if response.dragged_by(PointerButton::Primary) && (response.drag_delta() != egui::Vec2::ZERO) {
             self.tool_event_at(Event::Drag { to }, pixel_scale);
@@ -161,6 +164,9 @@ impl Designer {
             GhostShape::Line(places) => {
                 painter.add(Shape::line(self.on_screen(places), Stroke::new(3.0, color)));
             }
+            GhostShape::Thin(places) => {
+                painter.add(Shape::line(self.on_screen(places), Stroke::new(1.5, color)));
+            }
             GhostShape::Area(places) => area(painter, self.on_screen(places), color),
             GhostShape::Point(place) => {
                 for p in self.on_screen(&[*place]) {
@@ -170,15 +176,14 @@ impl Designer {
             GhostShape::Ink(points) => {
                 painter.add(Shape::line(points.iter().map(pixel).collect(), Stroke::new(2.0, color)));
             }
-            GhostShape::Box(from, to) => {
-                let rect = Rect::from_two_pos(pixel(from), pixel(to));
-                painter.rect(
-                    rect,
-                    0.0,
-                    color.gamma_multiply(0.15),
-                    Stroke::new(1.0, color),
-                    egui::StrokeKind::Middle,
-                );
+            GhostShape::Region(region) => {
+                let border: Vec<Pos2> = region.border().iter().map(pixel).collect();
+                // Fills of lassos would need their triangles.
+                if let Region::Box(from, to) = region {
+                    let rect = Rect::from_two_pos(pixel(from), pixel(to));
+                    painter.rect_filled(rect, 0.0, color.gamma_multiply(0.15));
+                }
+                painter.add(Shape::line(border, Stroke::new(1.0, color)));
             }
             GhostShape::Text(at, text) => {
                 let at = pixel(at) + egui::vec2(14.0, -14.0);
@@ -250,7 +255,8 @@ impl Designer {
     }
 }
 
-fn named(ui: &egui::Ui, at: Pos2, name: &str) {
+/// A small named rectangle, for screen readers and for tests.
+pub(crate) fn named(ui: &egui::Ui, at: Pos2, name: &str) {
     let rect = Rect::from_center_size(at, egui::vec2(8.0, 8.0));
     let response = ui.interact(rect, ui.scope_id().with(name), egui::Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::GraphicsObject, true, name));

@@ -8,19 +8,12 @@ use crate::selection::Element;
 impl Designer {
     /// Deletes what is selected: several things are one entry of the history.
     pub(crate) fn delete(&mut self) {
-        let draft = self.draft();
-        let on_edge = |ends: &[String; 2]| {
-            let lines = draft.template.lines.iter();
-            let own =
-                lines.filter(|(_, l)| l.through.len() == 2 && l.through.iter().all(|n| ends.contains(n)));
-            own.map(|(name, _)| name.clone()).next()
-        };
         let mut edits = Vec::new();
         let mut faces: Vec<(String, usize)> = Vec::new();
         for element in &self.session.selection.elements {
             match element {
                 Element::Node(name) => edits.push(Edit::DeleteNode { name: name.clone() }),
-                Element::Edge(ends) => edits.push(match on_edge(ends) {
+                Element::Edge(ends) => edits.push(match self.line_on(ends) {
                     Some(name) => Edit::DeleteProfile { name },
                     None => Edit::DeleteEdge { from: ends[0].clone(), to: ends[1].clone() },
                 }),

@@ -10,18 +10,22 @@ use design::regenerate::Regenerated;
 use eframe::egui;
 use eframe::glow;
 
-use crate::actions::remedy;
+use crate::actions::{Workspace, remedy};
+use crate::board::Board;
+use crate::browsing::{Browsing, FileDialog, system_dialog};
 use crate::jobs::{Body, Builder, Cloth, FileJob};
 use crate::model::Model;
+use crate::naming::Naming;
 use crate::notices::{Answer, Notice, Notices};
 use crate::panels::pattern::PatternView;
 use crate::preferences::{Preferences, Theme};
 pub(crate) use crate::prompts::Prompt;
+use crate::region::Region;
 use crate::selection::{Element, Mode};
 use crate::session::{OnDisk, Session};
 use crate::tools::{Drawing, Effect, Event, Machine, Tool, World};
 use crate::view::pick::Picker;
-use crate::view::scene::Look;
+use crate::view::scene::{Look, Section};
 use crate::view::{GlPainter, View};
 
 /// What a window begins with.
@@ -60,6 +64,8 @@ pub struct Designer {
     pub(crate) tool: Tool,
     pub(crate) machine: Box<dyn Machine>,
     pub(crate) drawing: Drawing,
+    pub(crate) workspace: Workspace,
+    pub(crate) board: Board,
     pub(crate) notices: Notices,
     pub(crate) preferences: Preferences,
     pub(crate) prompt: Option<Prompt>,
@@ -67,6 +73,13 @@ pub struct Designer {
     pub(crate) pattern: PatternView,
     /// The pattern made last: it stays to be seen while something is dragged.
     pub(crate) last_made: Option<Arc<Regenerated>>,
+    /// How many layouts were taken: each has panels of its own.
+    pub(crate) layouts_taken: usize,
+    pub(crate) naming: Naming,
+    /// A field had the keyboard in the frame before.
+    pub(crate) was_typing: bool,
+    pub(crate) file_dialog: FileDialog,
+    pub(crate) browsing: Option<Browsing>,
     /// What is under the pointer, in whichever view.
     pub(crate) hovered: Option<Element>,
     /// The seam under the pointer in the pattern.
@@ -82,6 +95,8 @@ pub struct Designer {
     pub(crate) stale: Stale,
     /// The draft whose garment is shown, whole.
     pub(crate) built: Option<Arc<Draft>>,
+    /// The body that the view has, and how it is cut.
+    pub(crate) shown_body: Option<(Arc<Body>, Option<Section>)>,
     pub(crate) kept: VecDeque<(Arc<Draft>, Arc<Body>, Arc<Cloth>)>,
     gl: Option<Arc<glow::Context>>,
     pub(crate) is_framed: bool,
@@ -101,12 +116,19 @@ impl Designer {
             tool: Tool::Select,
             machine: Tool::Select.start(),
             drawing: Drawing::default(),
+            workspace: Workspace::default(),
+            board: Board::default(),
             notices: Notices::default(),
             preferences,
             prompt: None,
             palette: None,
             pattern: PatternView::default(),
             last_made: None,
+            layouts_taken: 0,
+            naming: Naming::default(),
+            was_typing: false,
+            file_dialog: system_dialog,
+            browsing: None,
             hovered: None,
             hovered_seam: None,
             builder: Builder::start(),
@@ -117,6 +139,7 @@ impl Designer {
             pivot: None,
             stale: Stale::Whole,
             built: None,
+            shown_body: None,
             kept: VecDeque::new(),
             gl: None,
             is_framed: false,
@@ -139,6 +162,12 @@ impl Designer {
         }
         self.apply_theme(&context.egui_ctx);
         self
+    }
+
+    /// Another dialog for paths than the desktop's.
+    #[must_use]
+    pub fn with_file_dialog(self, file_dialog: FileDialog) -> Self {
+        Self { file_dialog, ..self }
     }
 
     /// The draft as it is.
@@ -176,8 +205,9 @@ impl Designer {
     }
 
     pub(crate) fn command(&mut self, command: Command) {
+        let before = Arc::clone(self.session.draft());
         let done = self.session.apply(command);
-        self.after(done, Stale::Whole);
+        self.after(&before, done, Stale::Whole);
     }
 
     pub(crate) fn edit(&mut self, edit: Edit) {
@@ -186,19 +216,28 @@ impl Designer {
 
     /// A step of a drag that `gesture` names.
     pub(crate) fn live(&mut self, gesture: egui::Id, edit: Edit) {
+        let before = Arc::clone(self.session.draft());
         let done = self.session.live(gesture, edit);
-        self.after(done, Stale::Rough);
+        self.after(&before, done, Stale::Rough);
     }
 
     /// The drag is over.
     pub(crate) fn settle(&mut self) {
-        if self.session.settle() {
+        // What is dragged on the board has no part in the garment.
+        if self.session.settle() && self.workspace == Workspace::Garment {
             self.stale = Stale::Whole;
         }
     }
 
-    fn after(&mut self, done: Result<(), EditError>, stale: Stale) {
+    fn after(&mut self, before: &Arc<Draft>, done: Result<(), EditError>, stale: Stale) {
         match done {
+            Ok(()) if self.session.draft().has_garment_of(before) => {
+                self.notices.forget_problems();
+                if self.built.as_ref().is_some_and(|built| Arc::ptr_eq(built, before)) {
+                    self.built = Some(Arc::clone(self.session.draft()));
+                }
+                self.follow_drawing();
+            }
             Ok(()) => {
                 self.notices.forget_problems();
                 self.stale = self.stale.max(stale);
@@ -208,6 +247,7 @@ impl Designer {
                 let notice = Notice::problem(e.to_string());
                 self.notices.push(match e {
                     EditError::Used { kind: "node", name, .. } => notice.about(Element::Node(name)),
+                    EditError::Held { joint, .. } => notice.about(Element::Joint(joint)),
                     EditError::Edge { from, to, .. } => {
                         notice.with_remedy(remedy::FACE_TOOL).about(Element::edge(&from, &to))
                     }
@@ -271,10 +311,11 @@ impl Designer {
     }
 
     pub(crate) fn select_all(&mut self) {
-        let everything = glam::DVec2::splat(1e9);
+        let far = glam::DVec2::splat(1e9);
+        let everything = Region::Box(-far, far);
         let mode = self.session.mode;
         let picker = Picker { x_ray: true, ..self.picker() };
-        let all = picker.within(-everything, everything, mode);
+        let all = picker.within(&everything, mode);
         self.session.selection.replace(all);
     }
 
@@ -299,9 +340,13 @@ impl Designer {
     }
 
     pub(crate) fn stop(&mut self) {
-        if let Some(job) = &self.file_job {
-            // What it has in hand it still says.
-            job.stop();
+        if let Some(job) = self.file_job.take() {
+            if job.stop() {
+                self.notices.say(format!("{}: stopped, and nothing is written", job.what));
+            } else {
+                // It says so itself in a moment.
+                self.file_job = Some(job);
+            }
             return;
         }
         self.builder.cancel();
@@ -364,6 +409,11 @@ impl Designer {
 }
 
 impl eframe::App for Designer {
+    /// The ground of panels and view, which draw none of their own.
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        visuals.panel_fill.to_normalized_gamma_f32()
+    }
+
     fn logic(&mut self, context: &egui::Context, _frame: &mut eframe::Frame) {
         let is_dark = context.theme() == egui::Theme::Dark;
         if self.look.is_dark != is_dark {
@@ -381,6 +431,8 @@ impl eframe::App for Designer {
 
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         let context = ui.ctx().clone();
+        // The window is cleared to the panels' colour: panels in panels would lay it on again and again.
+        ui.visuals_mut().panel_fill = egui::Color32::TRANSPARENT;
         let dropped = context.input(|i| i.raw.dropped_files.first().map(|f| f.path().to_path_buf()));
         if let Some(path) = dropped {
             self.ask(crate::prompts::Next::Open(path));
@@ -394,7 +446,10 @@ impl eframe::App for Designer {
         self.hovered_seam = None;
         let hovered = self.hovered.take();
         self.panels(ui);
-        egui::CentralPanel::no_frame().show(ui, |ui| self.canvas(ui));
+        egui::CentralPanel::no_frame().show(ui, |ui| match self.workspace {
+            Workspace::Garment => self.canvas(ui),
+            Workspace::Drawing => self.board_canvas(ui),
+        });
         if self.hovered != hovered {
             context.request_repaint();
         }
@@ -418,6 +473,7 @@ impl eframe::App for Designer {
     }
 
     fn on_exit(&mut self, gl: Option<&glow::Context>) {
+        self.preferences.save(&self.state);
         if let Some(gl) = gl {
             self.view.destroy(gl);
         }

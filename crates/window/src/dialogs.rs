@@ -3,9 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use design::draft::{FileKind, Recovery};
+use design::drawings::Making;
 use eframe::egui;
 
-use crate::actions::actions;
+use crate::actions::{ALSO, Action};
+use crate::browsing::{FileWish, PathKind};
 use crate::files::{self, kind_of_name};
 use crate::prompts::{Answer, Next, Purpose};
 
@@ -54,6 +56,7 @@ pub(crate) fn path(
     text: &mut String,
     note: &str,
     recent: &[PathBuf],
+    is_browsing: bool,
 ) -> Answer {
     let (heading, button) = match purpose {
         Purpose::Open => ("Open a design, a template or a body", "Open"),
@@ -64,6 +67,8 @@ pub(crate) fn path(
         Purpose::Deflate(Some(_)) => ("Write the mid-surface", "Make the mid-surface"),
         Purpose::Unfold(_, None) => ("Which sheet is laid flat?", "Next"),
         Purpose::Unfold(_, Some(_)) => ("Draw the flat plates", "Lay it flat"),
+        Purpose::Drawing => ("Take the drawing of which script?", "Open"),
+        Purpose::Script(_) => ("Write the drawing as a script", "Write"),
     };
     ui.heading(heading);
     if !note.is_empty() {
@@ -77,8 +82,20 @@ pub(crate) fn path(
             ui.add(value).labelled_by(label.id);
         });
     }
+    if let Purpose::Script(making) = purpose {
+        script(ui, making);
+    }
     let label = ui.label("Path");
-    let field = ui.add(egui::TextEdit::singleline(text).desired_width(f32::INFINITY)).labelled_by(label.id);
+    let mut is_asked = false;
+    let field = ui
+        .horizontal(|ui| {
+            let width = ui.available_width() - 90.0;
+            let field = ui.add(egui::TextEdit::singleline(text).desired_width(width)).labelled_by(label.id);
+            let button = ui.add_enabled(!is_browsing, egui::Button::new("Browse …"));
+            is_asked = button.on_hover_text("The file dialog of the desktop").clicked();
+            field
+        })
+        .inner;
     // Asked before the field takes the keyboard again.
     let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
     if ui.memory(|m| m.focused().is_none()) {
@@ -103,9 +120,50 @@ pub(crate) fn path(
             answer = Answer::Close;
         }
     });
+    if is_asked {
+        return Answer::Browse(wish(purpose, heading, &target));
+    }
     match chosen {
         Some(path) => Answer::Path(purpose.clone(), path),
         None => answer,
+    }
+}
+
+/// What the desktop's dialog is asked for.
+fn wish(purpose: &Purpose, title: &str, target: &Path) -> FileWish {
+    let kind = match purpose {
+        Purpose::Export => PathKind::Folder,
+        _ if purpose.reads() => PathKind::Open,
+        _ => PathKind::Save,
+    };
+    let folder = if target.is_dir() { Some(target) } else { target.parent() };
+    let name = target.file_name().filter(|_| !target.is_dir());
+    FileWish {
+        kind,
+        title: title.to_owned(),
+        folder: folder.map(Path::to_owned).unwrap_or_default(),
+        name: name.map(|n| n.to_string_lossy().into_owned()).unwrap_or_default(),
+    }
+}
+
+/// What the script makes of the drawing.
+fn script(ui: &mut egui::Ui, making: &mut Making) {
+    ui.horizontal(|ui| {
+        let height = if let Making::Walls(height) = making { *height } else { 50.0 };
+        for (kind, name) in [
+            (Making::Sheets, "Plane sheets with holes"),
+            (Making::Walls(height), "Walls"),
+            (Making::Wires, "Wires"),
+        ] {
+            ui.radio_value(making, kind, name);
+        }
+    });
+    if let Making::Walls(height) = making {
+        ui.horizontal(|ui| {
+            let label = ui.label("Height");
+            let value = egui::DragValue::new(height).range(0.01..=10_000.0).speed(0.5).suffix(" mm");
+            ui.add(value).labelled_by(label.id);
+        });
     }
 }
 
@@ -152,11 +210,11 @@ fn browse(ui: &mut egui::Ui, text: &mut String, recent: &[PathBuf]) -> Option<Pa
     chosen
 }
 
-pub(crate) fn keys(ui: &mut egui::Ui) -> Answer {
+pub(crate) fn keys(ui: &mut egui::Ui, actions: &[Action]) -> Answer {
     ui.heading("Keys");
     egui::ScrollArea::vertical().max_height(480.0).show(ui, |ui| {
         egui::Grid::new("keys").num_columns(3).striped(true).show(ui, |ui| {
-            for action in actions() {
+            for action in actions {
                 if action.shortcut.is_none() {
                     continue;
                 }
@@ -165,11 +223,18 @@ pub(crate) fn keys(ui: &mut egui::Ui) -> Answer {
                 ui.weak(&action.hint);
                 ui.end_row();
             }
+            for (shortcut, text) in ALSO {
+                ui.monospace(ui.ctx().format_shortcut(&shortcut));
+                ui.label(text);
+                ui.weak("also");
+                ui.end_row();
+            }
             for (hand, what) in [
                 ("right or middle drag", "turn the eye about what is under the pointer"),
                 ("Shift + the same", "move the eye across"),
                 ("wheel", "nearer and farther"),
                 ("Shift + click", "add to the selection, or take out of it"),
+                ("drag on empty ground", "select by a box; with Ctrl by a lasso"),
             ] {
                 ui.monospace(hand);
                 ui.label(what);

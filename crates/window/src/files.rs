@@ -4,9 +4,11 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use design::draft::{BodySource, Draft, FileKind, History, Mesh, journal};
-use design::regenerate::{Artifact, Regenerated};
+use design::regenerate::{Artifact, ExportStep, Regenerated};
 use mesh_kernel::files::{Format, write_atomically};
 use template::Template;
+
+use crate::workshop::Stop;
 
 /// What was in a file.
 pub(crate) enum Opened {
@@ -100,10 +102,14 @@ pub(crate) fn left_out(draft: &Draft) -> Option<String> {
 ///
 /// # Errors
 /// One sentence.
-pub(crate) fn export(made: &Regenerated, folder: &Path) -> Result<String, String> {
+pub(crate) fn export(made: &Regenerated, folder: &Path, stop: &Stop) -> Result<String, String> {
     // The report learns its seconds while it is written.
     let mut made = made.clone();
-    made.write(folder, &Artifact::DEFAULT, Instant::now()).map_err(|e| e.to_string())?;
+    let goes_on = |step: ExportStep| match step {
+        ExportStep::Making => !stop.is_wanted(),
+        ExportStep::Writing => stop.may_write(),
+    };
+    made.write_while(folder, &Artifact::DEFAULT, Instant::now(), &goes_on).map_err(|e| e.to_string())?;
     Ok(format!("exported to {}", folder.display()))
 }
 

@@ -6,7 +6,7 @@ use eframe::egui;
 
 use crate::designer::{Designer, Stale};
 use crate::jobs::FileJob;
-use crate::view::scene;
+use crate::view::{Part, scene};
 
 /// Garments of earlier drafts that are kept, for undo to show them at once.
 const KEPT: usize = 8;
@@ -58,7 +58,21 @@ impl Designer {
         self.view.solids.body = self.model.body.as_ref().map(|b| Arc::clone(&b.caster));
         self.view.solids.garment =
             self.model.cloth.as_ref().filter(|_| self.look.garment).map(|c| Arc::clone(&c.caster));
-        self.view.set_scene(scene::scene(&self.model, &self.look));
+        self.view.set_x_ray(self.look.x_ray);
+        // Most of what is new is a garment on the same body.
+        let shown = self.model.body.clone().filter(|_| self.look.body).map(|body| (body, self.look.section));
+        let is_same = match (&shown, &self.shown_body) {
+            (Some((new, section)), Some((old, cut))) => Arc::ptr_eq(new, old) && section == cut,
+            (None, None) => true,
+            _ => false,
+        };
+        if !is_same {
+            let is_closed = shown.as_ref().is_some_and(|(body, section)| body.is_closed && section.is_none());
+            self.view.set_mesh(Part::Body, scene::body(&self.model, &self.look), is_closed);
+            self.shown_body = shown;
+        }
+        self.view.set_mesh(Part::Garment, scene::garment(&self.model, &self.look), false);
+        self.show_lines();
     }
 
     pub(crate) fn show_lines(&mut self) {

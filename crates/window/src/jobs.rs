@@ -7,12 +7,13 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use design::draft::{BodySource, BuildError, Draft, OnBody, faces, preview};
+use design::draft::{BodySource, BuildError, Draft, DraggedForm, OnBody, faces, preview};
 use design::regenerate::{RegenerateError, Regenerated, Settings};
 use eframe::egui::Context;
 use mesh_kernel::TriMesh;
-use mesh_kernel::query::RayCaster;
+use mesh_kernel::query::{Adjacency, RayCaster};
 use rayon::prelude::*;
+use template::{Prepared, WarmStart};
 
 use crate::workshop::Stop;
 
@@ -23,6 +24,8 @@ pub(crate) struct Body {
     is_coarse: bool,
     pub(crate) on: OnBody,
     pub(crate) caster: Arc<RayCaster>,
+    /// Every edge has two faces.
+    pub(crate) is_closed: bool,
 }
 
 /// A garment, ready to be shown.
@@ -66,6 +69,10 @@ struct Shared {
     step: Mutex<String>,
     /// The whole body that was made last, and the coarse one.
     bodies: Mutex<[Option<Arc<Body>>; 2]>,
+    /// The form made last, for its measurements to be dragged.
+    dragged: Mutex<Option<(Arc<BodySource>, Arc<DraggedForm>)>>,
+    /// What previews leave to each other.
+    warm: WarmStart,
 }
 
 /// The workers' near end.
@@ -91,12 +98,19 @@ impl Builder {
                     while let Ok(newer) = orders.try_recv() {
                         order = newer;
                     }
-                    if let Some(done) = shared.carry_out(&order, is_whole)
-                        && results.send(done).is_err()
+                    let send = |done| {
+                        let is_heard = results.send(done).is_ok();
+                        order.context.request_repaint();
+                        is_heard
+                    };
+                    if let Some(done) = shared.carry_out(&order, is_whole, &send)
+                        && !send(done)
                     {
                         return;
                     }
-                    order.context.request_repaint();
+                    if is_whole && order.generation == shared.newest.load(Ordering::Relaxed) {
+                        shared.ready_for_dragging();
+                    }
                 }
             });
             sender
@@ -152,7 +166,8 @@ impl Builder {
 }
 
 impl Shared {
-    fn carry_out(&self, order: &Order, is_whole: bool) -> Option<Done> {
+    /// Does what is asked, and sends a preview ahead when there was nothing to be seen of the body yet.
+    fn carry_out(&self, order: &Order, is_whole: bool, send: &dyn Fn(Done) -> bool) -> Option<Done> {
         let generation = order.generation;
         let is_current = || self.newest.load(Ordering::Relaxed) == generation;
         if is_whole && !is_current() {
@@ -166,6 +181,7 @@ impl Shared {
             !is_whole || is_current()
         };
         tell("making the body");
+        let is_seen = self.at_hand(&order.draft.body, false).is_some();
         let body = match self.body(&order.draft.body, is_whole) {
             Ok(body) => body,
             Err(e) => return Some(Done { generation, is_whole, body: None, cloth: Err(e.to_string()) }),
@@ -173,7 +189,13 @@ impl Shared {
         if order.draft.template.surfaces.is_empty() {
             return Some(Done { generation, is_whole, body: Some(body), cloth: Ok(None) });
         }
-        let cloth = if is_whole { whole(&order.draft, &body, &tell) } else { rough(&order.draft, &body) };
+        if is_whole && !is_seen {
+            let cloth = rough(&order.draft, &body, &self.warm).map(|cloth| Some(Arc::new(cloth)));
+            let cloth = cloth.map_err(|e| e.to_string());
+            send(Done { generation, is_whole: false, body: Some(Arc::clone(&body)), cloth });
+        }
+        let cloth =
+            if is_whole { whole(&order.draft, &body, &tell) } else { rough(&order.draft, &body, &self.warm) };
         let cloth = match cloth {
             Err(BuildError::Regenerate(RegenerateError::Cancelled)) => return None,
             Ok(cloth) => Ok(Some(Arc::new(cloth))),
@@ -183,27 +205,64 @@ impl Shared {
     }
 
     fn has_body(&self, source: &Arc<BodySource>) -> bool {
+        self.at_hand(source, true).is_some()
+    }
+
+    /// The body of a source that has been made, whole or else coarse.
+    fn at_hand(&self, source: &Arc<BodySource>, is_whole: bool) -> Option<Arc<Body>> {
         let bodies = self.bodies.lock().unwrap_or_else(PoisonError::into_inner);
-        bodies
-            .iter()
-            .flatten()
-            .any(|b| !b.is_coarse && (Arc::ptr_eq(&b.source, source) || b.source == *source))
+        let same = |b: &&Arc<Body>| Arc::ptr_eq(&b.source, source) || b.source == *source;
+        bodies.iter().flatten().filter(|b| !is_whole || !b.is_coarse).find(same).cloned()
     }
 
     /// The body of a source: one that is at hand, or one that is made. A preview takes a whole one where there is one.
     fn body(&self, source: &Arc<BodySource>, is_whole: bool) -> Result<Arc<Body>, BuildError> {
-        let lock = || self.bodies.lock().unwrap_or_else(PoisonError::into_inner);
-        let same = |b: &&Arc<Body>| Arc::ptr_eq(&b.source, source) || b.source == *source;
-        let at_hand = lock().iter().flatten().filter(|b| !is_whole || !b.is_coarse).find(same).cloned();
-        if let Some(body) = at_hand {
+        if let Some(body) = self.at_hand(source, is_whole) {
             return Ok(body);
         }
-        let on = source.load((!is_whole).then_some(PREVIEW_BODY))?;
         let is_coarse = !is_whole && matches!(**source, BodySource::Form(_));
-        let caster = Arc::new(RayCaster::new(&on.body.mesh));
-        let body = Arc::new(Body { source: Arc::clone(source), is_coarse, on, caster });
-        lock()[usize::from(is_coarse)] = Some(Arc::clone(&body));
+        let dragged = if is_coarse { self.dragged(source) } else { None };
+        let (on, caster, is_closed) = match dragged {
+            Some((on, caster)) => (on, caster, true),
+            None => {
+                let body = source.human((!is_whole).then_some(PREVIEW_BODY))?;
+                let (prepared, (caster, is_closed)) = rayon::join(
+                    || Prepared::new(&body.mesh),
+                    || (RayCaster::new(&body.mesh), Adjacency::new(&body.mesh).is_closed_manifold()),
+                );
+                (OnBody { name: source.name(), body, prepared }, caster, is_closed)
+            }
+        };
+        let body =
+            Arc::new(Body { source: Arc::clone(source), is_coarse, on, caster: Arc::new(caster), is_closed });
+        let mut bodies = self.bodies.lock().unwrap_or_else(PoisonError::into_inner);
+        bodies[usize::from(is_coarse)] = Some(Arc::clone(&body));
         Ok(body)
+    }
+
+    /// The last form with these measurements, where it can follow them.
+    fn dragged(&self, source: &BodySource) -> Option<(OnBody, RayCaster)> {
+        let BodySource::Form(measurements) = source else { return None };
+        let at_hand = self.dragged.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let form = match at_hand {
+            Some((_, form)) => form,
+            None => self.ready_for_dragging()?,
+        };
+        form.at(measurements).ok()
+    }
+
+    /// Makes the form of the last whole body ready for its measurements to be dragged, unless it is.
+    fn ready_for_dragging(&self) -> Option<Arc<DraggedForm>> {
+        let whole = self.bodies.lock().unwrap_or_else(PoisonError::into_inner)[0].clone()?;
+        let lock = || self.dragged.lock().unwrap_or_else(PoisonError::into_inner);
+        let BodySource::Form(measurements) = &*whole.source else { return None };
+        if let Some((_, form)) = lock().as_ref().filter(|(source, _)| *source == whole.source) {
+            return Some(Arc::clone(form));
+        }
+        // Where none can be made every preview makes a coarse form, slower.
+        let made = DraggedForm::new(measurements, &whole.on.body, PREVIEW_BODY).ok().flatten().map(Arc::new);
+        *lock() = made.clone().map(|form| (Arc::clone(&whole.source), form));
+        made
     }
 }
 
@@ -218,12 +277,12 @@ fn whole(draft: &Draft, body: &Body, tell: &(dyn Fn(&str) -> bool + Sync)) -> Re
 }
 
 /// A coarse garment without pattern.
-fn rough(draft: &Draft, body: &Body) -> Result<Cloth, BuildError> {
+fn rough(draft: &Draft, body: &Body, warm: &WarmStart) -> Result<Cloth, BuildError> {
     let coarse: usize =
         draft.template.surfaces.values().flat_map(faces).map(|f| f.len() - 2).sum::<usize>().max(1);
     let coarse = if draft.template.mirrored { 2 * coarse } else { coarse };
     let levels = (0..draft.template.level).take_while(|l| coarse << (2 * (l + 1)) <= PREVIEW_FACES).count();
-    let garment = preview(draft, &body.on, levels as u8, &AtomicBool::new(false))?;
+    let garment = preview(draft, &body.on, levels as u8, warm, &AtomicBool::new(false))?;
     let mesh = garment.body.to_tri_mesh();
     let caster = Arc::new(RayCaster::new(&mesh));
     Ok(Cloth { mesh, caster, made: None, distances: Vec::new() })
@@ -255,9 +314,9 @@ impl FileJob {
         Self { what, receiver, stop }
     }
 
-    /// Asks it to end; it says so itself when it has.
-    pub(crate) fn stop(&self) {
-        self.stop.now();
+    /// Stops it, unless it writes already; whether it could. What it is in the midst of it may end, for nobody.
+    pub(crate) fn stop(&self) -> bool {
+        self.stop.now()
     }
 
     /// What it came to, once.

@@ -5,9 +5,12 @@
 //!
 //! * `session`: the history, its file, the selection; `model`: what follows from the draft; `jobs`: work in the background;
 //! * `tools`: state machines from events to effects; `actions`: everything that can be done by name;
+//! * `board`: the drawing in the plane, its tools and its panels;
 //! * `view`: the eye, the draw list and its two painters; `canvas`, `panels`, `prompts`: what is on the screen.
 
 mod actions;
+mod board;
+mod browsing;
 mod canvas;
 mod deletion;
 mod designer;
@@ -15,13 +18,16 @@ mod dialogs;
 mod files;
 mod following;
 mod jobs;
+mod layout;
 #[cfg(test)]
 mod measure;
 mod model;
+mod naming;
 mod notices;
 mod panels;
 mod preferences;
 mod prompts;
+mod region;
 mod selection;
 mod session;
 mod tools;
@@ -29,6 +35,7 @@ mod units;
 mod view;
 mod workshop;
 
+pub use browsing::{FileDialog, FileWish, PathKind};
 pub use designer::{Designer, Start};
 
 /// Opens the window and returns when it is closed.
@@ -42,6 +49,8 @@ pub fn run(designer: Designer) -> Result<(), eframe::Error> {
             .with_inner_size([1280.0, 800.0])
             .with_drag_and_drop(true),
         depth_buffer: 24,
+        // The interface is flat: there is nothing to dither, and it costs at every pixel.
+        dithering: false,
         ..eframe::NativeOptions::default()
     };
     eframe::run_native("toile", options, Box::new(|context| Ok(Box::new(designer.with_context(context)))))

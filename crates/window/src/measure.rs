@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use design::draft::{Command, Draft, Edit, preview};
+use design::draft::{BodySource, Command, Draft, DraggedForm, Edit, preview};
 use design::regenerate::Settings;
 use eframe::egui;
 use glam::DVec2;
@@ -35,12 +35,18 @@ fn dress() -> Draft {
 
 /// A designer whose garment is built, seen in a picture of 1280 × 800.
 fn designer(state: &std::path::Path) -> Designer {
+    let started = Instant::now();
     let mut designer = Designer::new(Start { draft: dress(), file: None, state: state.to_owned() });
     let context = egui::Context::default();
+    let mut seen = None;
     while !designer.is_built() {
         designer.refresh(&context);
+        if designer.model.cloth.is_some() {
+            seen.get_or_insert_with(|| started.elapsed());
+        }
         std::thread::sleep(std::time::Duration::from_millis(2));
     }
+    println!("body and garment are seen after {seen:.2?}, built after {:.2?}", started.elapsed());
     designer.view.eye.camera.size = DVec2::new(1280.0, 800.0);
     designer.frame_all();
     designer
@@ -94,16 +100,64 @@ fn how_long() {
     println!("stroke release: profile {release:.1} ms ({drawn} entries)");
 
     let levels = [1u8, 2, 3];
+    let stop = AtomicBool::new(false);
     for level in levels {
         let mut faces = 0;
-        let mut seconds = template::Seconds::default();
-        let time = p95(20, |_| {
-            let made = preview(&draft, &on, level, &AtomicBool::new(false)).unwrap();
+        let cold = p95(20, |_| {
+            let made = preview(&draft, &on, level, &template::WarmStart::default(), &stop).unwrap();
             faces = made.body.to_tri_mesh().faces.len();
-            seconds = made.seconds;
         });
-        println!("{seconds:?}");
-        println!("preview of {faces} triangles: {time:.1} ms");
+        let warm = template::WarmStart::default();
+        let mut dragged = (*draft).clone();
+        let eased = p95(60, |k| {
+            dragged.template.ease.values_mut().for_each(|e| e.ease += if k < 30 { 2.0 } else { -2.0 });
+            drop(preview(&dragged, &on, level, &warm, &stop).unwrap());
+        });
+        let moved = p95(60, |k| {
+            dragged.template.nodes.get_mut("front_hip").unwrap().normal += if k < 30 { 1.0 } else { -1.0 };
+            drop(preview(&dragged, &on, level, &warm, &stop).unwrap());
+        });
+        println!(
+            "preview of {faces} triangles: first {cold:.1} ms; an ease dragged {eased:.1} ms, a node {moved:.1} ms"
+        );
+    }
+    let BodySource::Form(measurements) = &*draft.body else { unreachable!() };
+    let form = DraggedForm::new(measurements, &on.body, crate::jobs::PREVIEW_BODY).unwrap().unwrap();
+    let waist = measurements.resolve().unwrap().waist;
+    let warm = template::WarmStart::default();
+    let mut parts = [0.0; 2];
+    let sized = p95(60, |k| {
+        let wider = waist + 0.1 * (30.0 - (k as f64 - 30.0).abs());
+        let started = Instant::now();
+        let (on, _) = form.at(&Measurements { waist: Some(wider), ..measurements.clone() }).unwrap();
+        parts[0] += started.elapsed().as_secs_f64();
+        drop(preview(&draft, &on, 2, &warm, &stop).unwrap());
+        parts[1] += started.elapsed().as_secs_f64();
+    });
+    let [body, garment] = parts.map(|s| 1000.0 * s / 60.0);
+    println!(
+        "a measurement dragged: {sized:.1} ms; in the mean {body:.1} ms to the body, {garment:.1} ms with the garment"
+    );
+    let shown = p95(20, |_| {
+        d.show_solids();
+        let meshes: Vec<_> = crate::view::scene::garment(&d.model, &d.look).into_iter().collect();
+        std::hint::black_box(viewer::MeshBuffer::of(&meshes));
+    });
+    println!("a new garment in the view: {shown:.1} ms");
+    for triangles in [crate::jobs::PREVIEW_BODY, FormOptions::default().triangles] {
+        let options = FormOptions { triangles, ..FormOptions::default() };
+        let build = || DressForm::build(&Measurements::default(), &options).unwrap().mesh;
+        let form = p95(5, |_| drop(build()));
+        let mesh = build();
+        let extract = || reference::human::extract(&mesh, &Default::default()).unwrap();
+        let features = p95(5, |_| drop(extract()));
+        let body = extract();
+        let prepared = p95(5, |_| drop(template::Prepared::new(&body.mesh)));
+        let caster = p95(5, |_| drop(mesh_kernel::query::RayCaster::new(&body.mesh)));
+        println!(
+            "a form of {} triangles: {form:.1} ms, its features {features:.1} ms, prepared {prepared:.1} ms, for rays {caster:.1} ms",
+            mesh.faces.len()
+        );
     }
     let coarse = p95(5, |_| drop(draft.body.load(Some(crate::jobs::PREVIEW_BODY)).unwrap()));
     println!("a coarse body: {coarse:.1} ms");

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use mesh_kernel::files::write_atomically;
 use serde::{Deserialize, Serialize};
 
+use crate::layout::{Layout, NamedLayout};
 use crate::units::LengthUnit;
 
 /// As many files are remembered.
@@ -30,6 +31,10 @@ pub(crate) struct Preferences {
     pub(crate) recent: Vec<PathBuf>,
     /// Draw without OpenGL.
     pub(crate) software: bool,
+    /// The panels as they are.
+    pub(crate) layout: Layout,
+    /// Arrangements that were kept.
+    pub(crate) layouts: Vec<NamedLayout>,
 }
 
 impl Preferences {

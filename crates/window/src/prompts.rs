@@ -4,13 +4,17 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use design::draft::{BodySource, Draft, Edit, FileKind, History, Recovery};
+use design::drawings::Making;
 use eframe::egui;
 
 use crate::actions::remedy;
+use crate::board::pen::Pen;
+use crate::browsing::{Browsed, Browsing, FileWish};
 use crate::designer::{Designer, Stale, describe};
 use crate::dialogs::{keys, path, recovery, unsaved};
 use crate::files::{self, LIBRARY, Opened};
 use crate::jobs::FileJob;
+use crate::layout::{self, LayoutAnswer};
 use crate::notices::Notice;
 use crate::session::{OnDisk, Session};
 use crate::workshop::{self, Stop};
@@ -37,12 +41,16 @@ pub(crate) enum Purpose {
     Deflate(Option<PathBuf>),
     /// Flat plates of a sheet: how thick it is, mm, and which.
     Unfold(f64, Option<PathBuf>),
+    /// A script, for its drawing.
+    Drawing,
+    /// A script of the drawing, and what it makes.
+    Script(Making),
 }
 
 impl Purpose {
     /// Whether a file that is there is asked for.
     pub(crate) fn reads(&self) -> bool {
-        matches!(self, Self::Open | Self::Deflate(None) | Self::Unfold(_, None))
+        matches!(self, Self::Open | Self::Drawing | Self::Deflate(None) | Self::Unfold(_, None))
     }
 }
 
@@ -50,8 +58,16 @@ impl Purpose {
 pub(crate) enum Prompt {
     Unsaved(Next),
     Recovery(Vec<(Recovery, String)>),
-    Path { purpose: Purpose, text: String, note: String },
+    Path {
+        purpose: Purpose,
+        text: String,
+        note: String,
+    },
     Keys,
+    /// The panels are kept under a name.
+    Layout {
+        name: String,
+    },
 }
 
 impl Prompt {
@@ -69,6 +85,8 @@ pub(crate) enum Answer {
     Recover(Recovery),
     Discard(Recovery),
     Path(Purpose, PathBuf),
+    Browse(FileWish),
+    Layout(LayoutAnswer),
 }
 
 impl Designer {
@@ -127,6 +145,7 @@ impl Designer {
     fn begin(&mut self, history: History, file: Option<OnDisk>, is_saved: bool) {
         self.session = Session::new(history, file, is_saved, &self.state);
         self.take_tool(self.tool);
+        (self.board.pen, self.board.selection) = (Pen::new(self.board.pen.tool), Vec::new());
         self.forget_garments();
     }
 
@@ -184,6 +203,17 @@ impl Designer {
         self.prompt = Some(Prompt::Path { purpose, text, note });
     }
 
+    pub(crate) fn prompt_drawing(&mut self) {
+        let note = "A script of modelling commands (.json); undo takes the drawing before.".to_owned();
+        self.prompt_source(Purpose::Drawing, note);
+    }
+
+    pub(crate) fn prompt_script(&mut self) {
+        let path = self.session.beside(&format!("{}-drawing.json", self.session.name()));
+        let note = "Commands for `toile model`; the design keeps the drawing with its rules.".to_owned();
+        self.prompt_path(Purpose::Script(Making::Sheets), &path, note);
+    }
+
     pub(crate) fn prompt_save_as(&mut self, note: Option<String>) {
         let name = self.session.beside(&format!("{}.toile", self.session.name()));
         self.prompt_path(Purpose::SaveAs(None), &name, note.unwrap_or_default());
@@ -217,7 +247,7 @@ impl Designer {
         let made = self.model.cloth.as_ref().and_then(|c| c.made.clone()).filter(|_| self.is_built());
         match made {
             Some(made) => {
-                let work = move |_: &Stop| files::export(&made, &folder);
+                let work = move |stop: &Stop| files::export(&made, &folder, stop);
                 self.file_job = Some(FileJob::start("exporting".to_owned(), context, work));
             }
             None => {
@@ -254,7 +284,7 @@ impl Designer {
             let note = "A drawing, .dxf or .svg. Without a thickness the sheet is folded sharply.".to_owned();
             return self.prompt_path(Purpose::Unfold(thickness, Some(path)), &beside, note);
         };
-        let work = move |_: &Stop| workshop::unfold_to(&sheet, thickness, &path);
+        let work = move |stop: &Stop| workshop::unfold_to(&sheet, thickness, &path, stop);
         self.file_job = Some(FileJob::start("laying the sheet flat".to_owned(), context, work));
     }
 
@@ -275,8 +305,27 @@ impl Designer {
         }
     }
 
+    /// What the desktop's dialog came to goes into the field; a person still says yes to it.
+    fn take_browsed(&mut self, prompt: &mut Prompt) {
+        let Some(browsed) = self.browsing.as_ref().and_then(Browsing::take) else { return };
+        self.browsing = None;
+        match (browsed, prompt) {
+            (Browsed::Path(path), Prompt::Path { text, .. }) => *text = path.display().to_string(),
+            (Browsed::Missing, Prompt::Path { note, .. }) => {
+                *note = "There is no file dialog of the desktop here; write the path.".to_owned();
+            }
+            _ => {}
+        }
+    }
+
     pub(crate) fn show_prompt(&mut self, context: &egui::Context) {
-        let Some(mut prompt) = self.prompt.take() else { return };
+        let Some(mut prompt) = self.prompt.take() else {
+            // An answer that comes later is to a question that is no more.
+            self.browsing = None;
+            return;
+        };
+        self.take_browsed(&mut prompt);
+        let is_browsing = self.browsing.is_some();
         let mut answer = Answer::None;
         let modal = egui::Modal::new(egui::Id::unique("prompt")).show(context, |ui| {
             ui.set_width(if matches!(prompt, Prompt::Keys) { 880.0 } else { 620.0 });
@@ -284,9 +333,14 @@ impl Designer {
                 Prompt::Unsaved(next) => unsaved(ui, &self.session.name(), next),
                 Prompt::Recovery(found) => recovery(ui, found),
                 Prompt::Path { purpose, text, note } => {
-                    path(ui, purpose, text, note, &self.preferences.recent)
+                    path(ui, purpose, text, note, &self.preferences.recent, is_browsing)
                 }
-                Prompt::Keys => keys(ui),
+                Prompt::Keys => keys(ui, &self.actions()),
+                Prompt::Layout { name } => match layout::ask(ui, name, &self.preferences.layouts) {
+                    LayoutAnswer::None => Answer::None,
+                    LayoutAnswer::Close => Answer::Close,
+                    other => Answer::Layout(other),
+                },
             };
         });
         if matches!(answer, Answer::None) && modal.should_close() {
@@ -295,7 +349,17 @@ impl Designer {
         match answer {
             Answer::None => self.prompt = self.prompt.take().or(Some(prompt)),
             Answer::Close => {}
+            Answer::Browse(wish) => {
+                self.browsing = Some(Browsing::start(self.file_dialog, wish, context));
+                self.prompt = Some(prompt);
+            }
             Answer::GiveUp(next) => self.go_on(next),
+            Answer::Layout(LayoutAnswer::Keep(name)) => self.keep_layout(&name),
+            Answer::Layout(LayoutAnswer::Delete(k)) => {
+                self.prefer(|p| drop(p.layouts.remove(k)));
+                self.prompt = Some(prompt);
+            }
+            Answer::Layout(_) => {}
             Answer::Save(next) => match self.session.file.clone() {
                 Some(OnDisk { path, kind: FileKind::Draft }) => {
                     if self.save_to(&path) {
@@ -330,6 +394,8 @@ impl Designer {
                 Purpose::Thicken(thickness) => self.thicken(thickness, path, context),
                 Purpose::Deflate(source) => self.deflate(source, path, context),
                 Purpose::Unfold(thickness, source) => self.unfold(thickness, source, path, context),
+                Purpose::Drawing => self.open_drawing(&path),
+                Purpose::Script(making) => self.write_script(making, &path),
             },
         }
     }

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicU8, Ordering};
 
 use design::deflate::{DeflateSettings, deflate};
 use design::modelling::model;
@@ -17,17 +17,36 @@ use sheet::facets::FacetRule;
 use sheet::thicken::{Corners, Side};
 use sheet::unfold::{Effort, Metal, Reference, Relief, ReliefShape, UnfoldOptions};
 
-/// Whether a person has stopped the work.
+/// How far work for a file is, and whether a person has stopped it. Work that writes can be stopped no more: so either it is
+/// stopped and nothing is written, or it is done.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Stop(Arc<AtomicBool>);
+pub(crate) struct Stop(Arc<AtomicU8>);
+
+const AT_WORK: u8 = 0;
+const STOPPED: u8 = 1;
+const WRITING: u8 = 2;
 
 impl Stop {
-    pub(crate) fn now(&self) {
-        self.0.store(true, Ordering::Relaxed);
+    /// Stops the work; whether it could be.
+    pub(crate) fn now(&self) -> bool {
+        self.change(STOPPED)
     }
 
-    fn is_wanted(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
+    pub(crate) fn is_wanted(&self) -> bool {
+        self.0.load(Ordering::Relaxed) == STOPPED
+    }
+
+    /// Whether it may write; from now on it cannot be stopped.
+    pub(crate) fn may_write(&self) -> bool {
+        self.change(WRITING)
+    }
+
+    /// Whether it is so now.
+    fn change(&self, to: u8) -> bool {
+        match self.0.compare_exchange(AT_WORK, to, Ordering::Relaxed, Ordering::Relaxed) {
+            Ok(_) => true,
+            Err(now) => now == to,
+        }
     }
 }
 
@@ -52,7 +71,10 @@ fn format_of(path: &Path, what: &str) -> Result<Format, String> {
     Format::of_path(path).ok_or_else(|| format!("the {what}'s name must end in {MODELS}"))
 }
 
-fn written(path: &Path, bytes: &[u8]) -> Result<(), String> {
+fn written(path: &Path, bytes: &[u8], stop: &Stop) -> Result<(), String> {
+    if !stop.may_write() {
+        return Err("stopped".to_owned());
+    }
     write_atomically(path, bytes).map_err(|e| format!("{} could not be written: {e}", path.display()))
 }
 
@@ -72,7 +94,7 @@ pub(crate) fn thicken_to(mesh: &TriMesh, thickness: f64, path: &Path, stop: &Sto
         format: format_of(path, "solid")?,
     };
     let made = thicken(mesh, &settings, stop).map_err(|e| e.to_string())?;
-    written(path, &made.bytes)?;
+    written(path, &made.bytes, stop)?;
     Ok(format!("solid of {} triangles written to {}", made.report.faces, path.display()))
 }
 
@@ -93,8 +115,8 @@ pub(crate) fn deflate_to(solid: &Path, path: &Path, stop: &Stop) -> Result<Strin
     };
     let mesh = read(solid).map_err(|e| about(&e))?;
     let made = deflate(&mesh, &settings, stop).map_err(|e| about(&e))?;
-    written(path, &made.sheet)?;
-    written(&path.with_extension("thickness.json"), &made.thickness)?;
+    written(path, &made.sheet, stop)?;
+    written(&path.with_extension("thickness.json"), &made.thickness, stop)?;
     let report = &made.report;
     let text = format!("mid-surface of {} patches written to {}", report.patches, path.display());
     Ok(report.warnings.iter().fold(text, |text, warning| format!("{text}; {warning}")))
@@ -105,7 +127,7 @@ pub(crate) fn deflate_to(solid: &Path, path: &Path, stop: &Stop) -> Result<Strin
 ///
 /// # Errors
 /// One sentence.
-pub(crate) fn unfold_to(sheet: &Path, thickness: f64, path: &Path) -> Result<String, String> {
+pub(crate) fn unfold_to(sheet: &Path, thickness: f64, path: &Path, stop: &Stop) -> Result<String, String> {
     let about = |e: &dyn std::fmt::Display| format!("{}: {e}", sheet.display());
     let ends_in = |end: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(end));
     let format = match (ends_in("dxf"), ends_in("svg")) {
@@ -134,7 +156,7 @@ pub(crate) fn unfold_to(sheet: &Path, thickness: f64, path: &Path) -> Result<Str
     let name = sheet.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
     let reading = SheetReading { unit, rule: FacetRule::Planes };
     let made = unfold(&mesh, &reading, &options, format, &name).map_err(|e| about(&e))?;
-    written(path, &made.bytes)?;
+    written(path, &made.bytes, stop)?;
     let report = &made.report;
     let text = format!(
         "{} plates with {} bends, {} lines welded, written to {}",
@@ -144,4 +166,30 @@ pub(crate) fn unfold_to(sheet: &Path, thickness: f64, path: &Path) -> Result<Str
         path.display()
     );
     Ok(report.warnings.iter().fold(text, |text, warning| format!("{text}; {warning}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn work_is_stopped_or_written_never_both() {
+        let stop = Stop::default();
+        assert!(stop.now() && stop.now() && !stop.may_write() && stop.is_wanted());
+        let stop = Stop::default();
+        assert!(stop.may_write() && stop.may_write() && !stop.now() && !stop.is_wanted());
+    }
+
+    #[test]
+    fn what_was_stopped_leaves_no_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("flat.dxf");
+        let tray = format!("{}/../../samples/desk-tray.obj", env!("CARGO_MANIFEST_DIR"));
+        let stop = Stop::default();
+        assert!(stop.now());
+        assert!(unfold_to(Path::new(&tray), 0.0, &path, &stop).is_err());
+        assert!(!path.exists());
+        assert!(unfold_to(Path::new(&tray), 0.0, &path, &Stop::default()).is_ok());
+        assert!(path.exists());
+    }
 }

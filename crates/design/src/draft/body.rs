@@ -2,8 +2,9 @@
 
 use mesh_kernel::TriMesh;
 use mesh_kernel::glam::DVec3;
-use reference::dress_form::{DressForm, FormOptions, Measurements};
-use reference::human::{self, HumanBody, HumanOptions};
+use mesh_kernel::query::RayCaster;
+use reference::dress_form::{DressForm, FormOptions, Measurements, Pliable};
+use reference::human::{self, HumanBody, HumanOptions, TiedFeatures};
 use serde::{Deserialize, Serialize};
 use template::Prepared;
 
@@ -138,11 +139,22 @@ impl BodySource {
         }
     }
 
-    /// The body with its features; `triangles` is about the size of a form. 0.3 s for the usual 22 000 triangles.
+    /// The body with its features and search structures; `triangles` is about the size of a form. 0.2 s for the usual 22 000
+    /// triangles.
+    ///
+    /// # Errors
+    /// As [`Self::human`].
+    pub fn load(&self, triangles: Option<usize>) -> Result<OnBody, BuildError> {
+        let body = self.human(triangles)?;
+        let prepared = Prepared::new(&body.mesh);
+        Ok(OnBody { name: self.name(), body, prepared })
+    }
+
+    /// The body with its features.
     ///
     /// # Errors
     /// [`BuildError`]: measurements of nobody, a mesh that is no upright body.
-    pub fn load(&self, triangles: Option<usize>) -> Result<OnBody, BuildError> {
+    pub fn human(&self, triangles: Option<usize>) -> Result<HumanBody, BuildError> {
         let mesh = match self {
             Self::Form(m) => {
                 let mut options = FormOptions::default();
@@ -154,8 +166,49 @@ impl BodySource {
                 mesh.faces.clone(),
             ),
         };
-        let body = human::extract(&mesh, &HumanOptions::default())?;
-        let prepared = Prepared::new(&body.mesh);
-        Ok(OnBody { name: self.name(), body, prepared })
+        Ok(human::extract(&mesh, &HumanOptions::default())?)
+    }
+}
+
+/// A dress form whose measurements are being dragged: its nodes move and its features with them, nothing is looked for anew.
+pub struct DraggedForm {
+    form: Pliable,
+    features: TiedFeatures,
+    prepared: Prepared,
+    caster: RayCaster,
+    /// Stature of the person it was made for, cm.
+    stature: f64,
+}
+
+impl DraggedForm {
+    /// A form of about so many triangles for these measurements, with the features of `body`, which is a form of the same
+    /// measurements. 0.1 s for 6000 triangles.
+    ///
+    /// # Errors
+    /// [`BuildError::Form`].
+    pub fn new(
+        measurements: &Measurements,
+        body: &HumanBody,
+        triangles: usize,
+    ) -> Result<Option<Self>, BuildError> {
+        let form = Pliable::build(measurements, &FormOptions { triangles, ..FormOptions::default() })?;
+        let stature = measurements.resolve()?.height;
+        let Some(features) = TiedFeatures::new(body, &form.mesh()) else { return Ok(None) };
+        let mesh = features.moved(form.mesh(), 1.0).mesh;
+        let (prepared, caster) = rayon::join(|| Prepared::new(&mesh), || RayCaster::new(&mesh));
+        Ok(Some(Self { form, features, prepared, caster, stature }))
+    }
+
+    /// The form at other measurements, near to what is built of them, and its mesh for rays.
+    ///
+    /// # Errors
+    /// [`BuildError::Form`]: measurements of nobody, or too far off for this form to follow.
+    pub fn at(&self, measurements: &Measurements) -> Result<(OnBody, RayCaster), BuildError> {
+        let mesh = self.form.at(measurements)?;
+        let body = self.features.moved(mesh, measurements.resolve()?.height / self.stature);
+        let (prepared, caster) =
+            rayon::join(|| self.prepared.moved(&body.mesh), || self.caster.moved(&body.mesh));
+        let prepared = prepared.unwrap_or_else(|| Prepared::new(&body.mesh));
+        Ok((OnBody { name: BodySource::Form(measurements.clone()).name(), body, prepared }, caster))
     }
 }

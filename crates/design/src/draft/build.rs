@@ -7,7 +7,7 @@ use mesh_kernel::query::ClosestPoint;
 use reference::FeatureCurve;
 use reference::dress_form::FormError;
 use reference::human::{HumanBody, HumanError};
-use template::{Garment, Reference, RegenerateOptions, Template, TemplateError};
+use template::{Garment, Reference, RegenerateOptions, Template, TemplateError, WarmStart};
 
 use super::{Draft, OnBody};
 use crate::regenerate::{RegenerateError, Regenerated, Settings, regenerate_prepared};
@@ -51,11 +51,18 @@ pub fn with_drawn_features(draft: &Draft, on: &OnBody) -> HumanBody {
     body
 }
 
-/// A coarse garment without a pattern, for the eye while something is dragged.
+/// A coarse garment without a pattern, for the eye while something is dragged. It begins with what the preview before left in
+/// `warm`.
 ///
 /// # Errors
 /// [`BuildError`].
-pub fn preview(draft: &Draft, on: &OnBody, levels: u8, cancel: &AtomicBool) -> Result<Garment, BuildError> {
+pub fn preview(
+    draft: &Draft,
+    on: &OnBody,
+    levels: u8,
+    warm: &WarmStart,
+    cancel: &AtomicBool,
+) -> Result<Garment, BuildError> {
     let template = Template::from_file(draft.template.clone())?;
     let body = with_drawn_features(draft, on);
     let reference = Reference { mesh: &body.mesh, features: &body.features };
@@ -64,6 +71,7 @@ pub fn preview(draft: &Draft, on: &OnBody, levels: u8, cancel: &AtomicBool) -> R
         cancel: Some(cancel),
         prepared: Some(&on.prepared),
         preview: true,
+        warm: Some(warm),
         ..RegenerateOptions::default()
     };
     Ok(template::regenerate(&template, &reference, &options)?)

@@ -3,12 +3,15 @@
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
+use sketch::Drawing;
 use template::Template;
 use template::format::{
     EaseSpec, JointSpec, LineSpec, NodeSpec, PieceSpec, ProfileShape, Shape, SurfaceSpec,
 };
 
-use super::topology::{edges, faces, joints, pair, sides};
+use super::rename::{Named, rename};
+use super::seams::{make_joint, split_joint};
+use super::topology::{edges, faces, pair, sides};
 use super::{BodySource, Draft, DrawnFeature, EditError, set_measure};
 
 /// One change of a draft.
@@ -34,7 +37,7 @@ pub enum Edit {
     AssignSurface { surface: String, face: usize, to: String },
     /// A surface goes with all that is said of it.
     DeleteSurface { surface: String },
-    /// A joint is made; all others are made explicit first.
+    /// A joint is made, cut out of those that hold its edges; all others are made explicit first.
     MakeJoint { joint: JointSpec },
     /// A joint becomes two; the first takes the surfaces named. Joints are numbered as listed, or as they make themselves.
     SplitJoint { joint: usize, first: Vec<String> },
@@ -54,6 +57,10 @@ pub enum Edit {
     SetEase { level: String, ease: Option<EaseSpec> },
     /// How a surface becomes a piece.
     EditPiece { surface: String, piece: PieceSpec },
+    /// Another name; everything that refers to it follows.
+    Rename { kind: Named, from: String, to: String },
+    /// A listed joint gets a name, or none.
+    NameJoint { joint: usize, name: Option<String> },
     /// Groups of surfaces that are smooth across their joints.
     SetFairAcross { groups: Vec<Vec<String>> },
     /// Name, clearance, level, symmetry.
@@ -65,6 +72,8 @@ pub enum Edit {
     },
     /// A measurement of the form, cm; none: derived.
     SetMeasure { name: String, value: Option<f64> },
+    /// The drawing in the plane becomes another; `label` says by what.
+    Draw { label: String, drawing: Drawing },
     /// Edits that are one to a person: a stroke over several edges. All of them or none.
     Together { label: String, edits: Vec<Edit> },
 }
@@ -92,11 +101,13 @@ impl Edit {
             Self::DeleteFeature { name } => format!("delete feature {name}"),
             Self::SetEase { level, .. } => format!("set ease {level}"),
             Self::EditPiece { surface, .. } => format!("edit piece {surface}"),
+            Self::Rename { from, to, .. } => format!("rename {from} to {to}"),
+            Self::NameJoint { .. } => "name joint".to_owned(),
             Self::SetFairAcross { .. } => "set smooth joints".to_owned(),
             Self::SetTemplate { .. } => "set template".to_owned(),
             Self::SwitchBody { .. } => "switch body".to_owned(),
             Self::SetMeasure { name, .. } => format!("set {}", name.replace('_', " ")),
-            Self::Together { label, .. } => label.clone(),
+            Self::Draw { label, .. } | Self::Together { label, .. } => label.clone(),
         }
     }
 
@@ -109,7 +120,9 @@ impl Edit {
                 level == old
             }
             (Self::EditPiece { surface, .. }, Self::EditPiece { surface: old, .. }) => surface == old,
-            (Self::SetTemplate { .. }, Self::SetTemplate { .. }) => true,
+            (Self::SetTemplate { .. }, Self::SetTemplate { .. }) | (Self::Draw { .. }, Self::Draw { .. }) => {
+                true
+            }
             _ => false,
         }
     }
@@ -178,11 +191,7 @@ impl Edit {
                 file.surfaces.remove(surface).ok_or_else(|| missing("surface", surface))?;
                 forget_surface(draft, surface);
             }
-            Self::MakeJoint { joint } => {
-                let mut all = file.joints.take().unwrap_or_else(|| joints(file));
-                all.push(joint.clone());
-                file.joints = Some(all);
-            }
+            Self::MakeJoint { joint } => make_joint(draft, joint)?,
             Self::SplitJoint { joint, first } => split_joint(draft, *joint, first)?,
             Self::AutomaticJoints => file.joints = None,
             Self::DrawProfile { name, nodes, points } => draw_profile(draft, name, nodes, points)?,
@@ -212,6 +221,15 @@ impl Edit {
             Self::EditPiece { surface, piece } => {
                 file.pieces.insert(surface.clone(), piece.clone());
             }
+            Self::Rename { kind, from, to } => rename(draft, *kind, from, to)?,
+            Self::NameJoint { joint, name } => {
+                let joints = file.joints.as_mut().ok_or_else(|| EditError::Value {
+                    what: "the name of a joint".to_owned(),
+                    why: "joints that make themselves are named after their surfaces".to_owned(),
+                })?;
+                let number = || missing("joint", &(joint + 1).to_string());
+                joints.get_mut(*joint).ok_or_else(number)?.name = name.clone();
+            }
             Self::SetFairAcross { groups } => file.fair_across = groups.clone(),
             Self::SetTemplate { name, clearance, level, mirrored } => {
                 file.name = name.clone();
@@ -231,6 +249,7 @@ impl Edit {
                 set_measure(&mut m, name, *value)?;
                 draft.body = Arc::new(BodySource::Form(m));
             }
+            Self::Draw { drawing, .. } => draft.drawing = drawing.clone(),
             Self::Together { edits, .. } => {
                 for edit in edits {
                     edit.change(draft)?;
@@ -241,7 +260,7 @@ impl Edit {
     }
 }
 
-fn missing(kind: &'static str, name: &str) -> EditError {
+pub(super) fn missing(kind: &'static str, name: &str) -> EditError {
     EditError::Missing { kind, name: name.to_owned() }
 }
 
@@ -371,22 +390,6 @@ fn forget_surface(draft: &mut Draft, surface: &str) {
             line.continues.take_if(|l| *l == name);
         }
     }
-}
-
-fn split_joint(draft: &mut Draft, joint: usize, first: &[String]) -> Result<(), EditError> {
-    let file = &mut draft.template;
-    let mut all = file.joints.take().unwrap_or_else(|| joints(file));
-    let refused = |why: &str| EditError::Value { what: format!("joint {joint}"), why: why.to_owned() };
-    let old = all.get(joint).cloned().ok_or_else(|| missing("joint", &joint.to_string()))?;
-    let (a, b): (Vec<_>, Vec<_>) = old.surfaces.iter().cloned().partition(|s| first.contains(s));
-    if a.len() < 2 || b.len() < 2 || a.len() != first.len() {
-        return Err(refused("both parts need two of its surfaces at least"));
-    }
-    let name = |part: &str| old.name.as_ref().map(|n| format!("{n}_{part}"));
-    all[joint] = JointSpec { name: name("first"), surfaces: a, ..old.clone() };
-    all.insert(joint + 1, JointSpec { name: name("second"), surfaces: b, ..old });
-    file.joints = Some(all);
-    Ok(())
 }
 
 fn draw_profile(

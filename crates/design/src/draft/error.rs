@@ -49,6 +49,16 @@ pub enum EditError {
         /// Why not and what to do.
         why: String,
     },
+    /// A joint over edges that another one holds.
+    #[error("joint {} ({name}) holds these edges already: {why}", .joint + 1)]
+    Held {
+        /// The other one's number, from 0.
+        joint: usize,
+        /// Its name for people.
+        name: String,
+        /// Why the new one is not cut out of it.
+        why: String,
+    },
     /// A value that cannot be.
     #[error("{what}: {why}")]
     Value {

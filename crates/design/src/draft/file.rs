@@ -7,8 +7,8 @@ use template::format::TemplateFile;
 use super::{BodySource, Draft, DraftFileError, EditError, Mesh};
 use crate::document::Document;
 
-/// Version of the format that this program writes.
-pub const DRAFT_VERSION: u32 = 1;
+/// Version of the format that this program reads; it writes 1 where there is no drawing, for older programs to read.
+pub const DRAFT_VERSION: u32 = 2;
 
 /// What a file is that a draft can be made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,7 +43,7 @@ impl Draft {
     /// The file's bytes, one line; the same draft gives the same bytes.
     pub fn to_bytes(&self) -> Vec<u8> {
         let file = DraftFile {
-            toile_draft: DRAFT_VERSION,
+            toile_draft: if super::is_blank(&self.drawing) { 1 } else { DRAFT_VERSION },
             program: env!("CARGO_PKG_VERSION").to_owned(),
             draft: self.clone(),
         };

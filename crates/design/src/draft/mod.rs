@@ -11,6 +11,8 @@ mod error;
 mod file;
 mod history;
 pub mod journal;
+mod rename;
+mod seams;
 mod shared;
 mod topology;
 
@@ -18,15 +20,17 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
+use sketch::Drawing;
 use template::format::TemplateFile;
 
 pub use autosave::{Autosave, Recovery, recoveries, state_folder};
-pub use body::{BodySource, MEASURES, Mesh, OnBody, measure, set_measure};
+pub use body::{BodySource, DraggedForm, MEASURES, Mesh, OnBody, measure, set_measure};
 pub use build::{BuildError, preview, with_drawn_features};
 pub use edit::Edit;
 pub use error::{DraftFileError, EditError};
 pub use file::{DRAFT_VERSION, FileKind};
 pub use history::{Command, History};
+pub use rename::Named;
 pub use topology::{edges, faces, joints};
 
 /// A feature curve drawn by hand on the body.
@@ -52,15 +56,36 @@ pub struct Draft {
     /// Feature curves drawn by hand.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub features: BTreeMap<String, DrawnFeature>,
+    /// What is drawn in the plane, beside the garment.
+    #[serde(default, skip_serializing_if = "is_blank")]
+    pub drawing: Drawing,
     /// The body; shared, as it may be large.
     #[serde(with = "shared")]
     pub body: Arc<BodySource>,
 }
 
+fn is_blank(drawing: &Drawing) -> bool {
+    *drawing == Drawing::default()
+}
+
 impl Draft {
     /// A draft of a template on a body.
     pub fn new(template: TemplateFile, body: BodySource) -> Self {
-        Self { template, wires: BTreeSet::new(), features: BTreeMap::new(), body: Arc::new(body) }
+        Self {
+            template,
+            wires: BTreeSet::new(),
+            features: BTreeMap::new(),
+            drawing: Drawing::default(),
+            body: Arc::new(body),
+        }
+    }
+
+    /// Whether the same garment comes of both: they differ in the drawing at most.
+    pub fn has_garment_of(&self, other: &Self) -> bool {
+        let body = Arc::ptr_eq(&self.body, &other.body) || self.body == other.body;
+        body && self.template == other.template
+            && self.wires == other.wires
+            && self.features == other.features
     }
 
     /// Nothing but a body: a woman of the average size.

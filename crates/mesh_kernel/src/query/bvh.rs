@@ -135,6 +135,37 @@ impl Bvh {
         }
         bvh
     }
+
+    /// The same hierarchy over the same faces with their nodes elsewhere, finite ones: boxes follow what is in them. The less
+    /// the nodes have moved, the better it serves. O(n).
+    pub(super) fn refit(&self, mesh: &TriMesh) -> Self {
+        let [lo, hi] = mesh.bounds().unwrap_or([DVec3::ZERO; 2]);
+        let mut bvh = Self { origin: (lo + hi) / 2.0, ..self.clone() };
+        let mut boxes = vec![Box3::EMPTY; bvh.nodes.len()];
+        // From the bottom up: children have larger numbers than their parent.
+        for number in (0..bvh.nodes.len()).rev() {
+            for slot in 0..4 {
+                let child = bvh.nodes[number].children[slot];
+                let mut bounds = Box3::EMPTY;
+                match child.get() {
+                    Ok(leaf) => {
+                        for f in &bvh.order[leaf] {
+                            let [a, b, c] = mesh.corners(*f).map(|p| p - bvh.origin);
+                            bounds.grow(&Box3 { lo: a.min(b).min(c), hi: a.max(b).max(c) });
+                        }
+                    }
+                    Err(below) => bounds = boxes[below],
+                }
+                bvh.nodes[number].set(slot, &bounds, child);
+                boxes[number].grow(&bounds);
+            }
+        }
+        bvh.extent = boxes.first().map_or(0.0, |b| b.lo.abs().max(b.hi.abs()).max_element());
+        if bvh.order.is_empty() {
+            bvh.extent = 0.0;
+        }
+        bvh
+    }
 }
 
 impl Node {

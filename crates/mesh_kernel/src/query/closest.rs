@@ -55,6 +55,10 @@ impl ClosestPoint {
         Self { bvh, triangles, packs }
     }
 
+    pub(super) fn bvh(&self) -> &Bvh {
+        &self.bvh
+    }
+
     /// The closest point; `None` without faces or when `p` is not finite. O(log n) near the mesh.
     pub fn closest(&self, p: DVec3) -> Option<Closest> {
         self.closest_within(p, f64::INFINITY)

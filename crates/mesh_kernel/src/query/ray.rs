@@ -34,7 +34,16 @@ const NEARLY_ZERO: f32 = 1e-20;
 impl RayCaster {
     /// Builds the hierarchy. O(n log n).
     pub fn new(mesh: &TriMesh) -> Self {
-        let bvh = Bvh::new(mesh);
+        Self::with_bvh(Bvh::new(mesh), mesh)
+    }
+
+    /// The same for a mesh of the same faces whose nodes have moved, all finite: answers are as after [`Self::new`], the
+    /// hierarchy is this one's. O(n).
+    pub fn moved(&self, mesh: &TriMesh) -> Self {
+        Self::with_bvh(self.bvh.refit(mesh), mesh)
+    }
+
+    fn with_bvh(bvh: Bvh, mesh: &TriMesh) -> Self {
         let corners = |f: &u32| if *f == VACANT { [DVec3::ZERO; 3] } else { mesh.corners(*f) };
         let triangles = bvh.order.iter().map(corners).map(|[a, b, c]| [a, b - a, c - a]).collect();
         Self { bvh, triangles }
@@ -178,6 +187,25 @@ mod tests {
             let got = caster.first(origin, direction, 0.0, 5.0).map(|h| h.distance);
             assert_eq!(got, wanted, "{origin} {direction}");
         }
+    }
+
+    #[test]
+    fn a_moved_mesh_is_met_as_a_new_one() {
+        let mut mesh = two_floors(9);
+        let before = RayCaster::new(&mesh);
+        for (k, p) in mesh.positions.iter_mut().enumerate() {
+            *p += DVec3::new(3.0 + 0.3 * p.y, 0.2 * p.x, 0.05 * (k % 7) as f64);
+        }
+        let (moved, new) = (before.moved(&mesh), RayCaster::new(&mesh));
+        let mut met = 0;
+        for k in 0..600 {
+            let origin = DVec3::new(f64::from(k % 25) * 0.6, f64::from(k / 25) * 0.5, 4.0);
+            let direction = DVec3::new(0.1, -0.05, -1.0);
+            let hit = moved.first(origin, direction, 0.0, 9.0);
+            met += usize::from(hit.is_some());
+            assert_eq!(hit, new.first(origin, direction, 0.0, 9.0), "{origin}");
+        }
+        assert!(met > 100 && met < 600, "{met}");
     }
 
     #[test]

@@ -126,6 +126,41 @@ impl SignedDistance {
         query
     }
 
+    /// The same for a closed mesh of the same faces whose nodes have moved, all finite, but not so far that it crosses itself
+    /// where it did not: which side of which face is outside stays as it was. `None` where faces differ or there are
+    /// holes. O(n), a quarter of the time of [`Self::new`].
+    pub fn moved(&self, mesh: &TriMesh) -> Option<Self> {
+        let is_same = self.faces == mesh.faces && self.node_normals.len() == mesh.positions.len();
+        if !is_same || !self.caps.is_empty() {
+            return None;
+        }
+        let (adjacency, (closest, winding)) = rayon::join(
+            || Adjacency::new(mesh),
+            || {
+                let bvh = self.closest.bvh().refit(mesh);
+                (ClosestPoint::with_bvh(bvh.clone(), mesh), WindingNumber::with_bvh(bvh, mesh))
+            },
+        );
+        let normal = |f: u32| mesh.area_normal(f).normalize_or_zero();
+        let mut query = Self {
+            closest,
+            winding,
+            cap_surface: None,
+            edge_normals: vec![DVec3::ZERO; 3 * mesh.faces.len()],
+            node_normals: vec![DVec3::ZERO; mesh.positions.len()],
+            node_certain: vec![false; mesh.positions.len()],
+            outside: self.outside.clone(),
+            caps: Vec::new(),
+            bounds: mesh.bounds().unwrap_or([DVec3::ZERO; 2]),
+            rounding: 0.0,
+            face_normals: (0..mesh.faces.len() as u32).map(normal).collect(),
+            faces: self.faces.clone(),
+        };
+        query.rounding = 1e-12 * query.bounds[0].abs().max(query.bounds[1].abs()).max_element();
+        query.normals(mesh, &adjacency);
+        Some(query)
+    }
+
     /// Signed distance, closest point and normal. `distance` is infinite and the normal zero for a mesh without faces or
     /// a point that is not finite.
     pub fn signed(&self, p: DVec3) -> Signed {

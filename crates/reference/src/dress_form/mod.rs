@@ -23,6 +23,7 @@ mod hull;
 mod levels;
 mod measurements;
 mod patch;
+mod pliable;
 mod polygonize;
 mod presets;
 mod remesh;
@@ -32,6 +33,7 @@ mod tape;
 pub use error::FormError;
 pub use levels::{HEADLESS_HEIGHT_RATIO, Levels};
 pub use measurements::{Figure, HEIGHT_RANGE, Measurements, Resolved};
+pub use pliable::Pliable;
 pub use presets::{Preset, presets};
 
 use mesh_kernel::TriMesh;
@@ -92,40 +94,10 @@ impl DressForm {
     /// # Errors
     /// [`FormError`] when the measurements are not of a person, or the wanted size of the mesh is out of range.
     pub fn build(measurements: &Measurements, options: &FormOptions) -> Result<Self, FormError> {
-        let [low, high] = TRIANGLES;
-        if !(low..=high).contains(&options.triangles) {
-            return Err(FormError::Resolution { triangles: options.triangles, low, high });
-        }
-        let resolved = measurements.resolve()?;
-        let mut field = Field::new(&resolved, options.head);
-        let levels = field.levels;
-
-        // A coarse form first: how far do its girths miss, with all parts joined?
-        let mut coarse = half_form(&field, levels.stature / 70.0);
-        for _ in 0..2 {
-            let correction = tape::correction(&coarse, &field, &resolved);
-            field.sections.scale(|y| correction.get(y));
-            coarse = half_form(&field, levels.stature / 70.0);
-        }
-
-        let surface = 2.0 * remesh::area(&coarse);
-        let edge = (surface / options.triangles as f64 / (0.25 * 3.0_f64.sqrt())).sqrt();
-        let mut half = half_form(&field, edge * 0.95);
-        remesh::remesh(&mut half, &field, edge, 5);
-        for round in 0..6 {
-            // The extremes first; what is left at the levels themselves last.
-            let factor = if round < 4 { tape::level_extremes } else { tape::correction };
-            let factor = factor(&half, &field, &resolved);
-            tape::warp(&mut half, &field, &factor);
-        }
-        tape::check(&half, &levels, &resolved)?;
-        if let Some(place) = half.fault() {
-            return Err(FormError::Folded { height: place.y / 10.0 });
-        }
-        let levels = as_built(levels, &half);
+        let Pliable { half, field, measurements, levels, .. } = Pliable::build(measurements, options)?;
         let (mesh, labels) = mirrored(&half);
         let plates = plates(&mesh, &labels, &field);
-        Ok(Self { mesh, measurements: resolved, levels, plates })
+        Ok(Self { mesh, measurements, levels, plates })
     }
 }
 

@@ -3,6 +3,7 @@
 //! Six tetrahedra about each cell's diagonal (Kuhn): no ambiguous case, always a manifold.
 
 use mesh_kernel::glam::DVec3;
+use rayon::prelude::*;
 
 /// Triangles of half a surface; the open boundary lies in x = 0.
 pub(super) struct HalfSurface {
@@ -18,7 +19,7 @@ pub(super) struct Bounds {
 }
 
 /// Marches through `bounds` with cells of `cell` mm. O(cells).
-pub(super) fn polygonize(field: impl Fn(DVec3) -> f64, bounds: &Bounds, cell: f64) -> HalfSurface {
+pub(super) fn polygonize(field: impl Fn(DVec3) -> f64 + Sync, bounds: &Bounds, cell: f64) -> HalfSurface {
     let count = |length: f64| (length / cell).ceil() as usize + 2;
     let size = [
         count(bounds.half_width),
@@ -34,15 +35,15 @@ pub(super) fn polygonize(field: impl Fn(DVec3) -> f64, bounds: &Bounds, cell: f6
             bounds.z[0] + (k as f64 - 0.5) * cell,
         )
     };
-    let mut values = Vec::with_capacity(size[0] * size[1] * size[2]);
-    for j in 0..size[1] {
-        for k in 0..size[2] {
-            for i in 0..size[0] {
+    let mut values = vec![0.0; size[0] * size[1] * size[2]];
+    values.par_chunks_mut(strides[1]).enumerate().for_each(|(j, layer)| {
+        for (k, row) in layer.chunks_mut(size[0]).enumerate() {
+            for (i, value) in row.iter_mut().enumerate() {
                 let f = field(place(i, j, k));
-                values.push(if f == 0.0 { 1e-9 } else { f });
+                *value = if f == 0.0 { 1e-9 } else { f };
             }
         }
-    }
+    });
     // The edges of the six tetrahedra run along seven directions; a node is found by its lower end and direction.
     let mut node_of = vec![[u32::MAX; 7]; values.len()];
     let mut surface = HalfSurface { positions: Vec::new(), faces: Vec::new() };

@@ -198,6 +198,16 @@ fn flip_to_regular(patch: &mut Patch) {
 /// One step of every node towards the middle of its neighbours, within what holds it, then back to the surface.
 fn relax(patch: &mut Patch, field: &Field, projections: usize) {
     let hold = holds(patch);
+    step(patch, field, projections, &hold);
+}
+
+/// Moves every node to the surface by so many steps, within the planes that hold it.
+pub(super) fn onto(patch: &mut Patch, field: &Field, projections: usize) {
+    let hold = vec![Hold::Corner; patch.positions.len()];
+    step(patch, field, projections, &hold);
+}
+
+fn step(patch: &mut Patch, field: &Field, projections: usize, hold: &[Hold]) {
     let moved: Vec<DVec3> = (0..patch.positions.len() as u32)
         .into_par_iter()
         .with_min_len(256)

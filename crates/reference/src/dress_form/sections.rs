@@ -4,6 +4,8 @@
 //! (trunk), with `c > a` two (legs); growing `c / a` from 0 to 1 parts the seat and opens the crotch as a smooth saddle.
 //! Depth, parting and power differ between front and back and change smoothly at the side.
 
+use rayon::prelude::*;
+
 use super::curve::Curve;
 use super::hull::hull_length;
 use super::levels::Levels;
@@ -236,6 +238,7 @@ impl Sections {
         };
         let count = ((levels.nape + 0.1 * h) / table_step).ceil() as usize + 2;
         let table: Vec<[f64; FIELDS]> = (0..count)
+            .into_par_iter()
             .map(|i| {
                 let y = i as f64 * table_step;
                 if y < levels.crotch { legs.section(y) } else { trunk(y) }.to_array()

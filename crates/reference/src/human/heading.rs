@@ -128,6 +128,10 @@ fn samples(mesh: &TriMesh, count: usize) -> Vec<Sample> {
 
 /// Best mirror plane of a mesh in millimetres with y up; `None` if the surface has no area.
 pub(crate) fn mirror_plane(mesh: &TriMesh) -> Option<MirrorPlane> {
+    // Forms and models are often mirrored to the bit: no plane can be better then.
+    if is_mirrored(mesh) {
+        return Some(MirrorPlane { angle: 0.0, offset: 0.0, residual: 0.0 });
+    }
     let samples = samples(mesh, SAMPLES);
     if samples.len() < 100 {
         return None;
@@ -154,6 +158,19 @@ pub(crate) fn mirror_plane(mesh: &TriMesh) -> Option<MirrorPlane> {
     }
     let fine: Vec<MirrorPlane> = starts.into_par_iter().map(|s| refine(&samples, &cubes, s, 3, 14)).collect();
     fine.into_iter().min_by(|a, b| a.residual.total_cmp(&b.residual))
+}
+
+/// Whether every node has its mirror image in the plane x = 0, to the bit. O(n log n).
+fn is_mirrored(mesh: &TriMesh) -> bool {
+    let key = |p: &DVec3| {
+        // Of the two zeros the positive one.
+        let [x, y, z] = [p.x.abs(), p.y + 0.0, p.z + 0.0].map(f64::to_bits);
+        ([y, x, z], i32::from(p.x > 0.0) - i32::from(p.x < 0.0))
+    };
+    let mut keys: Vec<([u64; 3], i32)> = mesh.positions.iter().map(key).collect();
+    keys.sort_unstable();
+    !keys.is_empty()
+        && keys.chunk_by(|a, b| a.0 == b.0).all(|same| same.iter().map(|k| k.1).sum::<i32>() == 0)
 }
 
 /// Angle between two undirected lines.
@@ -213,4 +230,24 @@ fn refine(
         plane.offset -= (rb * aa - ra * ab) / det;
     }
     plane
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mirrored_to_the_bit_or_not() {
+        let half = [DVec3::new(3.0, 1.0, 2.0), DVec3::new(0.0, -0.0, 1.0), DVec3::new(5.0, 1.0, -2.0)];
+        let mut positions = half.to_vec();
+        positions.extend(half.iter().map(|p| DVec3::new(-p.x, p.y, p.z)));
+        positions.push(DVec3::new(-0.0, 0.0, 1.0));
+        let mut mesh = TriMesh::new(positions, vec![[0, 1, 2]]);
+        assert!(is_mirrored(&mesh));
+        mesh.positions[3].x = (-3.0f64).next_up();
+        assert!(!is_mirrored(&mesh));
+        mesh.positions[3] = mesh.positions[0];
+        assert!(!is_mirrored(&mesh), "twice on one side");
+        assert!(!is_mirrored(&TriMesh::new(Vec::new(), Vec::new())));
+    }
 }

@@ -12,6 +12,7 @@ mod marks;
 mod normals;
 mod plates;
 mod ring;
+mod tied;
 mod upright;
 mod verticals;
 
@@ -22,6 +23,7 @@ use mesh_kernel::glam::{DMat3, DVec3};
 
 pub use error::HumanError;
 pub use export::{ExportedCurve, ExportedFeatures};
+pub use tied::TiedFeatures;
 
 use crate::model::Features;
 

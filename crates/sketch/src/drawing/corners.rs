@@ -56,19 +56,7 @@ impl Drawing {
     /// # Errors
     /// [`DrawingError`]: an unknown shape, a circle or a spline.
     pub fn trim(&mut self, shape: ShapeId, near: DVec2) -> Result<(), DrawingError> {
-        let curve = self.curve(shape)?;
-        if matches!(self.shape(shape)?, Shape::Circle { .. } | Shape::Spline(_)) {
-            return Err(DrawingError::Kind { what: "trimming", wanted: "lines, arcs and Bézier curves" });
-        }
-        let t = curve.nearest(near).t;
-        let mut cuts: Vec<f64> = Vec::new();
-        for (id, _) in self.shapes().filter(|(id, _)| *id != shape) {
-            cuts.extend(crossings(&curve, &self.curve(id)?).iter().map(|c| c.t[0]));
-        }
-        const END: f64 = 1e-9;
-        cuts.retain(|c| (END..=1.0 - END).contains(c));
-        let before = cuts.iter().copied().filter(|c| *c <= t).fold(0.0, f64::max);
-        let after = cuts.iter().copied().filter(|c| *c > t).fold(1.0, f64::min);
+        let [before, after] = self.part(shape, near)?;
         self.whole(|drawing| {
             // The last part first: parameters of what is before it stay as they are, but for scale.
             let mut middle = shape;
@@ -82,6 +70,27 @@ impl Drawing {
             }
             drawing.delete_shape(middle)
         })
+    }
+
+    /// The parameters between which trimming takes a shape away at a place.
+    ///
+    /// # Errors
+    /// [`DrawingError`]: an unknown shape, a circle or a spline.
+    pub fn part(&self, shape: ShapeId, near: DVec2) -> Result<[f64; 2], DrawingError> {
+        let curve = self.curve(shape)?;
+        if matches!(self.shape(shape)?, Shape::Circle { .. } | Shape::Spline(_)) {
+            return Err(DrawingError::Kind { what: "trimming", wanted: "lines, arcs and Bézier curves" });
+        }
+        let t = curve.nearest(near).t;
+        let mut cuts: Vec<f64> = Vec::new();
+        for (id, _) in self.shapes().filter(|(id, _)| *id != shape) {
+            cuts.extend(crossings(&curve, &self.curve(id)?).iter().map(|c| c.t[0]));
+        }
+        const END: f64 = 1e-9;
+        cuts.retain(|c| (END..=1.0 - END).contains(c));
+        let before = cuts.iter().copied().filter(|c| *c <= t).fold(0.0, f64::max);
+        let after = cuts.iter().copied().filter(|c| *c > t).fold(1.0, f64::min);
+        Ok([before, after])
     }
 
     /// Prolongs a line at one of its ends (0 or 1) to the next shape that it meets.

@@ -19,11 +19,20 @@ impl Drawing {
     }
 
     pub(super) fn add(&mut self, shape: Shape) -> Result<ShapeId, DrawingError> {
-        self.whole(|drawing| {
-            let id = ShapeId(drawing.number());
-            drawing.shapes.insert(id, shape);
-            Ok(id)
-        })
+        self.whole(|drawing| Ok(drawing.insert(shape)))
+    }
+
+    /// Adds a shape that is checked later.
+    pub(super) fn insert(&mut self, shape: Shape) -> ShapeId {
+        let id = ShapeId(self.number());
+        // Where a third shape joins, no two can be said to go on in one direction.
+        for end in shape.points() {
+            if let Some(point) = self.points.get_mut(end) {
+                point.smooth = false;
+            }
+        }
+        self.shapes.insert(id, shape);
+        id
     }
 
     fn number(&mut self) -> u32 {
@@ -153,6 +162,10 @@ impl Drawing {
             Shape::Arc { ends, bulge: bulge_through(from, over, to)? }
         };
         self.whole(|drawing| {
+            if matches!(shapes, Shape::Arc { .. }) {
+                // Rules are of lines.
+                drawing.rules.retain(|rule| !rule.shapes().contains(&shape));
+            }
             drawing.shapes.insert(shape, shapes);
             drawing.align_all()
         })
@@ -172,7 +185,7 @@ impl Drawing {
         })
     }
 
-    fn align_all(&mut self) -> Result<(), DrawingError> {
+    pub(super) fn align_all(&mut self) -> Result<(), DrawingError> {
         let smooth: Vec<PointId> = self.points.iter().filter(|(_, p)| p.smooth).map(|(id, _)| *id).collect();
         smooth.into_iter().try_for_each(|point| self.align(point, None))
     }

@@ -46,6 +46,20 @@ pub struct PointId(u32);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct ShapeId(u32);
 
+impl PointId {
+    /// Its number, by which people find it: no other point or shape of the drawing has it.
+    pub fn number(self) -> u32 {
+        self.0
+    }
+}
+
+impl ShapeId {
+    /// Its number, by which people find it: no other point or shape of the drawing has it.
+    pub fn number(self) -> u32 {
+        self.0
+    }
+}
+
 /// A shape between points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -126,14 +140,62 @@ struct Point {
     smooth: bool,
 }
 
-/// Shapes that share points.
+/// Shapes that share points. In files its parts are checked: what is read is what edits could have made.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Parts", into = "Parts")]
 pub struct Drawing {
     points: BTreeMap<PointId, Point>,
     shapes: BTreeMap<ShapeId, Shape>,
     rules: Vec<Rule>,
-    /// Number of the next point or shape; none is used twice.
+    /// Number of the newest point or shape; none is used twice.
     next: u32,
+}
+
+/// A drawing as it stands in a file. Pairs, for maps with numbers as keys do not survive in tagged values.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Parts {
+    points: Vec<(PointId, Point)>,
+    shapes: Vec<(ShapeId, Shape)>,
+    rules: Vec<Rule>,
+    next: u32,
+}
+
+/// Parts of files have numbers up to this; as many are left for edits.
+const NUMBERS: u32 = u32::MAX / 2;
+
+impl From<Drawing> for Parts {
+    fn from(d: Drawing) -> Self {
+        let (points, shapes) = (d.points.into_iter().collect(), d.shapes.into_iter().collect());
+        Self { points, shapes, rules: d.rules, next: d.next }
+    }
+}
+
+impl TryFrom<Parts> for Drawing {
+    type Error = DrawingError;
+
+    fn try_from(p: Parts) -> Result<Self, DrawingError> {
+        let newest = p.points.iter().map(|(id, _)| id.0).chain(p.shapes.iter().map(|(id, _)| id.0)).max();
+        let next = p.next.max(newest.unwrap_or_default());
+        if next > NUMBERS {
+            return Err(
+                SketchError::Number { what: "a number of a part", wanted: "2147483647 at most" }.into()
+            );
+        }
+        let (points, shapes) = (p.points.into_iter().collect(), p.shapes.into_iter().collect());
+        let mut drawing = Self { points, shapes, rules: Vec::new(), next };
+        if drawing.points.values().any(|point| !point.at.is_finite()) {
+            return Err(SketchError::Number { what: "a point", wanted: "made of finite numbers" }.into());
+        }
+        drawing.shapes.values().try_for_each(|shape| drawing.curve_of(shape).map(|_| ()))?;
+        // Smooth points that no edit could align would have every later edit refused.
+        drawing.clone().align_all()?;
+        for rule in p.rules {
+            drawing.check_rule(&rule)?;
+            drawing.rules.push(rule);
+        }
+        Ok(drawing)
+    }
 }
 
 impl Shape {
@@ -301,32 +363,48 @@ impl Drawing {
     /// [`DrawingError`].
     pub fn of(outline: &Outline) -> Result<Self, DrawingError> {
         let mut drawing = Self::default();
-        for curve in outline.curves()? {
+        drawing.add_outline(outline)?;
+        Ok(drawing)
+    }
+
+    /// Adds the curves of an outline; ends that are where the drawing has a point are that point. O(curves · points).
+    ///
+    /// # Errors
+    /// [`DrawingError`]: what is wrong with the outline; nothing of it is added then.
+    pub fn add_outline(&mut self, outline: &Outline) -> Result<(), DrawingError> {
+        let curves = outline.curves()?;
+        self.whole(|drawing| drawing.add_curves(curves))
+    }
+
+    fn add_curves(&mut self, curves: Vec<Curve>) -> Result<(), DrawingError> {
+        for curve in curves {
             if let Curve::Arc { center, radius, sweep, .. } = curve
                 && sweep.abs() >= std::f64::consts::TAU
             {
-                let center = drawing.point_at(center)?;
-                drawing.add_circle(center, radius)?;
+                let center = self.point_at(center)?;
+                self.insert(Shape::Circle { center, radius });
                 continue;
             }
-            let [a, b] = [drawing.point_at(curve.start())?, drawing.point_at(curve.end())?];
-            match &curve {
-                Curve::Line { .. } => drawing.add_line(a, b)?,
-                Curve::Arc { sweep, .. } => {
-                    drawing.add(Shape::Arc { ends: [a, b], bulge: (sweep / 4.0).tan() })?
+            let ends = [self.point_at(curve.start())?, self.point_at(curve.end())?];
+            let shape = match &curve {
+                Curve::Line { .. } => Shape::Line(ends),
+                Curve::Arc { sweep, .. } => Shape::Arc { ends, bulge: (sweep / 4.0).tan() },
+                Curve::Bezier { points } => {
+                    let handles = [points[1] - self.place(ends[0])?, points[2] - self.place(ends[1])?];
+                    Shape::Bezier { ends, handles }
                 }
-                Curve::Bezier { points } => drawing.add_bezier(a, points[1], points[2], b)?,
                 Curve::Spline { points, .. } => {
-                    let mut through = vec![a];
+                    let mut through = vec![ends[0]];
                     for p in &points[1..points.len() - 1] {
-                        through.push(drawing.add_point(*p)?);
+                        through.push(self.add_point(*p)?);
                     }
-                    through.push(b);
-                    drawing.add_spline(&through)?
+                    through.push(ends[1]);
+                    Shape::Spline(through)
                 }
             };
+            self.insert(shape);
         }
-        Ok(drawing)
+        Ok(())
     }
 
     /// The point at a place, new where there is none.

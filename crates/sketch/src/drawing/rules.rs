@@ -78,24 +78,30 @@ impl Drawing {
     /// # Errors
     /// [`DrawingError`]: shapes that are no lines, numbers that cannot be, rules that contradict each other.
     pub fn add_rule(&mut self, rule: Rule) -> Result<(), DrawingError> {
+        self.check_rule(&rule)?;
+        self.whole(|drawing| {
+            drawing.rules.push(rule);
+            drawing.obey(None)
+        })
+    }
+
+    /// Whether a rule can be one of this drawing; whether it can hold is another question.
+    pub(super) fn check_rule(&self, rule: &Rule) -> Result<(), DrawingError> {
         for shape in rule.shapes() {
             self.line(shape)?;
         }
-        if let Rule::Length(_, length) = rule
+        if let Rule::Length(_, length) = *rule
             && !(length.is_finite() && length > 0.0)
         {
             return Err(SketchError::Number { what: "a length", wanted: "finite and more than 0" }.into());
         }
-        if let Rule::Fixed(point, at) = rule {
+        if let Rule::Fixed(point, at) = *rule {
             self.place(point)?;
             if !at.is_finite() {
                 return Err(SketchError::Number { what: "a point", wanted: "made of finite numbers" }.into());
             }
         }
-        self.whole(|drawing| {
-            drawing.rules.push(rule);
-            drawing.obey(None)
-        })
+        Ok(())
     }
 
     /// Takes back a rule, by its place in [`rules`](Self::rules).
@@ -114,9 +120,7 @@ impl Drawing {
 
     /// Moves points until all rules hold; `held` stays.
     pub(super) fn obey(&mut self, held: Option<PointId>) -> Result<(), DrawingError> {
-        // A shape that has become no line any more has no rules.
-        let rules: Vec<Rule> =
-            self.rules.iter().copied().filter(|r| r.shapes().iter().all(|s| self.line(*s).is_ok())).collect();
+        let rules = self.rules.clone();
         let size = self.points().map(|(_, p)| p.length()).fold(1.0, f64::max);
         let mut worst = 0.0;
         let mut at_fault = 0;

@@ -116,6 +116,17 @@ impl SymmetricPattern {
         Ok(Self { matrix, slots, diagonal, symbolic })
     }
 
+    /// Whether it was made of these pairs in this order: then it serves their matrix too.
+    fn is_of(&self, n: usize, mut pairs: impl Iterator<Item = [u32; 2]>) -> bool {
+        let (columns, rows) = (self.matrix.col_ptr(), self.matrix.row_idx());
+        let mut slots = self.slots.iter();
+        let fits = |[row, column]: [u32; 2]| {
+            let (Some(slot), column) = (slots.next(), column as usize) else { return false };
+            column < n && (columns[column]..columns[column + 1]).contains(slot) && rows[*slot as usize] == row
+        };
+        self.diagonal.len() == n && pairs.all(fits) && slots.next().is_none()
+    }
+
     /// Number of entries of the factor.
     pub fn factor_size(&self) -> usize {
         self.symbolic.len_val()
@@ -125,15 +136,37 @@ impl SymmetricPattern {
 /// A pattern with values and their Cholesky factor.
 pub struct SparseFactor {
     pattern: SymmetricPattern,
+    /// Sums of the pairs' values.
+    sums: Vec<f64>,
+    /// The matrix: sums and diagonal.
     values: Vec<f64>,
     factor: Vec<f64>,
+    memory: Option<MemBuffer>,
 }
 
 impl SparseFactor {
     /// An empty factor; give it values with [`Self::refactor`].
     pub fn new(pattern: SymmetricPattern) -> Self {
         let (entries, size) = (pattern.matrix.row_idx().len(), pattern.symbolic.len_val());
-        Self { pattern, values: vec![0.0; entries], factor: vec![0.0; size] }
+        let (sums, values) = (vec![0.0; entries], vec![0.0; entries]);
+        Self { pattern, sums, values, factor: vec![0.0; size], memory: None }
+    }
+
+    /// The factor of an earlier matrix where it has the same pattern (its elimination order stays), else an empty one as
+    /// [`SymmetricPattern::new`] makes it.
+    ///
+    /// # Errors
+    /// [`FactorError::TooLarge`].
+    pub fn reused(
+        earlier: Option<Self>,
+        n: usize,
+        pairs: impl Iterator<Item = [u32; 2]> + Clone,
+        places: &[DVec3],
+    ) -> Result<Self, FactorError> {
+        match earlier.filter(|factor| factor.pattern.is_of(n, pairs.clone())) {
+            Some(factor) => Ok(factor),
+            None => Ok(Self::new(SymmetricPattern::new(n, pairs, places)?)),
+        }
     }
 
     /// Sums `values` (one for each pair of the pattern, in its order) and `diagonal` up and factors.
@@ -145,30 +178,46 @@ impl SparseFactor {
         values: impl Iterator<Item = f64>,
         diagonal: &[f64],
     ) -> Result<(), FactorError> {
-        self.values.fill(0.0);
+        self.set_values(values);
+        self.refactor_with(diagonal)
+    }
+
+    /// Sums up `values`, one for each pair of the pattern, in its order.
+    pub fn set_values(&mut self, values: impl Iterator<Item = f64>) {
+        self.sums.fill(0.0);
         for (slot, v) in self.pattern.slots.iter().zip(values) {
-            self.values[*slot as usize] += v;
+            self.sums[*slot as usize] += v;
         }
+    }
+
+    /// Factors the sum of the values set last and `diagonal`.
+    ///
+    /// # Errors
+    /// [`FactorError::Singular`] when the matrix is not positive definite.
+    pub fn refactor_with(&mut self, diagonal: &[f64]) -> Result<(), FactorError> {
+        self.values.copy_from_slice(&self.sums);
         for (slot, v) in self.pattern.diagonal.iter().zip(diagonal) {
             self.values[*slot as usize] += v;
         }
         // One thread: the same sums in the same order everywhere, and small fronts gain nothing from more.
         let scratch = self.pattern.symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default());
-        let mut memory = MemBuffer::try_new(scratch).map_err(|_| FactorError::TooLarge)?;
+        let mut memory = match self.memory.take() {
+            Some(memory) => memory,
+            None => MemBuffer::try_new(scratch).map_err(|_| FactorError::TooLarge)?,
+        };
         let matrix = SparseColMatRef::new(self.pattern.matrix.as_ref(), &self.values[..]);
-        self.pattern
-            .symbolic
-            .factorize_numeric_llt(
-                &mut self.factor,
-                matrix,
-                Side::Lower,
-                LltRegularization::default(),
-                Par::Seq,
-                MemStack::new(&mut memory),
-                Spec::default(),
-            )
-            .map(|_| ())
-            .map_err(|_| FactorError::Singular)
+        let done = self.pattern.symbolic.factorize_numeric_llt(
+            &mut self.factor,
+            matrix,
+            Side::Lower,
+            LltRegularization::default(),
+            Par::Seq,
+            MemStack::new(&mut memory),
+            Spec::default(),
+        );
+        let done = done.map(|_| ()).map_err(|_| FactorError::Singular);
+        self.memory = Some(memory);
+        done
     }
 
     /// Solves for `columns` right-hand sides (column-major). `apply` is the matrix' product with that many columns, for

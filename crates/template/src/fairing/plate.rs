@@ -8,7 +8,7 @@
 
 use glam::DVec3;
 
-use super::factor::{FactorError, SparseFactor, SymmetricPattern};
+use super::factor::{FactorError, SparseFactor};
 
 /// Triangles flatter than this (height over longest side) count as this high: a sliver of the template, where nodes have
 /// come close on some body, must not be stiffer than all the rest.
@@ -108,6 +108,19 @@ impl Plate {
     /// # Errors
     /// [`FactorError`] when what is fixed does not hold the plate (fewer than three nodes not in line).
     pub fn new(flaps: Vec<Flap>, hold: &[Hold], places: &[DVec3]) -> Result<Self, FactorError> {
+        Self::reusing(None, flaps, hold, places)
+    }
+
+    /// The same with the factor of an earlier plate, whose symbolic part serves again where both hang together alike.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn reusing(
+        earlier: Option<SparseFactor>,
+        flaps: Vec<Flap>,
+        hold: &[Hold],
+        places: &[DVec3],
+    ) -> Result<Self, FactorError> {
         let mut unknown = vec![FIXED; hold.len()];
         let (mut springs, mut free_places) = (Vec::new(), Vec::new());
         for (i, h) in hold.iter().enumerate() {
@@ -124,16 +137,17 @@ impl Plate {
         if plate.springs.is_empty() {
             return Ok(plate);
         }
-        let pattern = SymmetricPattern::new(
-            plate.springs.len(),
-            plate.flaps.iter().flat_map(|f| pairs(f, &plate.unknown).map(|(i, j, _)| [i, j])),
-            &free_places,
-        )?;
-        let mut factor = SparseFactor::new(pattern);
+        let places = plate.flaps.iter().flat_map(|f| pairs(f, &plate.unknown).map(|(i, j, _)| [i, j]));
+        let mut factor = SparseFactor::reused(earlier, plate.springs.len(), places, &free_places)?;
         let values = plate.flaps.iter().flat_map(|f| pairs(f, &plate.unknown).map(|(.., v)| v));
         factor.refactor(values, &plate.springs)?;
         plate.factor = Some(factor);
         Ok(plate)
+    }
+
+    /// Its factor, for another plate; `None` where nothing is free.
+    pub fn into_factor(self) -> Option<SparseFactor> {
+        self.factor
     }
 
     /// Number of free nodes.

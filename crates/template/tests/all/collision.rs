@@ -3,7 +3,9 @@
 use std::sync::atomic::AtomicBool;
 
 use mesh_kernel::glam::DVec3;
-use template::{Garment, Method, Reference, RegenerateOptions, Template, TemplateError, regenerate};
+use template::{
+    Garment, Method, Reference, RegenerateOptions, Template, TemplateError, WarmStart, regenerate,
+};
 
 use super::model;
 
@@ -149,4 +151,47 @@ fn all_methods_build_and_cancel_stops() {
     let options = RegenerateOptions { cancel: Some(&stop), ..RegenerateOptions::default() };
     let cancelled = regenerate(&skirt(15.0, 60.0), &reference, &options);
     assert_eq!(cancelled.err(), Some(TemplateError::Cancelled));
+}
+
+/// The largest distance of two garments' nodes, which must be as many.
+fn apart(a: &Garment, b: &Garment) -> f64 {
+    let (a, b) = (a.body.to_tri_mesh(), b.body.to_tri_mesh());
+    assert_eq!(a.faces, b.faces);
+    a.positions.iter().zip(&b.positions).map(|(p, q)| p.distance(*q)).fold(0.0, f64::max)
+}
+
+#[test]
+fn previews_that_begin_warm_are_those_that_begin_cold() {
+    let (mesh, features) = model::trunk();
+    let reference = Reference { mesh: &mesh, features: &features };
+    let warm = WarmStart::default();
+    let previewed = |template: &Template, levels: u8, warm: Option<&WarmStart>| {
+        let options =
+            RegenerateOptions { levels: Some(levels), preview: true, warm, ..RegenerateOptions::default() };
+        regenerate(template, &reference, &options).unwrap()
+    };
+    // Small steps as of a hand, a jump, other faces, and back.
+    for (offset, ease, levels) in [
+        (10.0, 60.0, 2),
+        (10.0, 61.0, 2),
+        (14.0, 61.0, 2),
+        (14.0, 120.0, 2),
+        (14.0, 120.0, 3),
+        (-15.0, 60.0, 2),
+    ] {
+        let template = skirt(offset, ease);
+        let (first, next) = (previewed(&template, levels, None), previewed(&template, levels, Some(&warm)));
+        for garment in [&first, &next] {
+            assert!(garment.ease.values().all(|got| (got - ease).abs() < 3.5), "{:?}", garment.ease);
+        }
+        // The eases may differ by their tolerance, 6 mm round a body: a millimetre outward.
+        assert!(apart(&first, &next) < 2.0, "{offset} {ease} {levels}: {}", apart(&first, &next));
+    }
+    // A whole garment is the same whatever was previewed before.
+    let template = skirt(10.0, 60.0);
+    let whole = |warm| {
+        let options = RegenerateOptions { warm, ..RegenerateOptions::default() };
+        regenerate(&template, &reference, &options).unwrap()
+    };
+    assert_eq!(apart(&whole(None), &whole(Some(&warm))), 0.0);
 }

@@ -126,3 +126,28 @@ fn springs_draw_and_a_kept_pattern_gives_the_same() {
     kept.set_springs(|i| if i == middle { 1e3 } else { 0.0 }).unwrap();
     assert_eq!(solve(&kept), stiff);
 }
+
+#[test]
+fn a_factor_serves_a_moved_plate_and_no_other_one() {
+    let (flat, faces, rim) = uneven(10);
+    let hold = |rim: &[bool]| -> Vec<Hold> {
+        rim.iter().map(|r| if *r { Hold::Fixed } else { Hold::Free }).collect()
+    };
+    let drum = |p: &DVec3| DVec3::new(p.x, p.y, 0.002 * p.x * p.x);
+    let solve = |plate: &Plate, flat: &[DVec3]| {
+        let mut p: Vec<DVec3> = flat.iter().map(drum).collect();
+        plate.solve(&mut p, flat).unwrap();
+        p
+    };
+    let apart = |p: &[DVec3], q: &[DVec3]| p.iter().zip(q).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+    let moved: Vec<DVec3> = flat.iter().map(|p| *p + 0.1 * DVec3::new(p.y, 0.5 * p.x, 0.0)).collect();
+    let mut wider = rim.clone();
+    wider[5 * 11 + 5] = true;
+    for (places, held) in [(&moved, &rim), (&flat, &wider)] {
+        let first = Plate::new(flaps(&flat, &faces), &hold(&rim), &flat).unwrap();
+        let fresh = Plate::new(flaps(places, &faces), &hold(held), places).unwrap();
+        let earlier = first.into_factor();
+        let reused = Plate::reusing(earlier, flaps(places, &faces), &hold(held), places).unwrap();
+        assert!(apart(&solve(&fresh, places), &solve(&reused, places)) < 1e-8);
+    }
+}

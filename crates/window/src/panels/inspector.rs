@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use design::draft::{BodySource, Draft, Edit, MEASURES, measure};
+use design::draft::{BodySource, Draft, Edit, MEASURES, Named, measure};
 use eframe::egui::{self, Response, Slider};
 use reference::dress_form::presets;
-use template::format::{EaseSpec, NodeSpec};
+use template::format::{EaseSpec, NodeSpec, PieceSpec};
 
 use crate::actions::remedy;
 use crate::designer::Designer;
@@ -25,7 +25,14 @@ impl Designer {
     pub(crate) fn inspector(&mut self, ui: &mut egui::Ui) {
         let draft = Arc::clone(self.session.draft());
         match self.session.selection.elements.len() {
-            0 => {}
+            0 => {
+                let now = draft.template.name.clone();
+                if let Some(name) = self.name_field(ui, "Design name", &now) {
+                    let t = &draft.template;
+                    let (clearance, level, mirrored) = (t.clearance, t.level, t.mirrored);
+                    self.edit(Edit::SetTemplate { name, clearance, level, mirrored });
+                }
+            }
             1 => {
                 if let Some(element) = self.session.selection.only().cloned() {
                     ui.strong(element.label(&draft));
@@ -47,7 +54,7 @@ impl Designer {
     }
 
     /// A widget's new value as an edit: steps of one drag are one entry of the history.
-    fn changed(&mut self, response: &Response, edit: Edit) {
+    pub(crate) fn changed(&mut self, response: &Response, edit: Edit) {
         if response.changed() {
             // The frame in which the button goes up still belongs to the drag.
             let is_drag = response.dragged() || response.drag_stopped();
@@ -63,6 +70,7 @@ impl Designer {
             ui.weak("the twin of a node on the left, which it follows");
             return;
         };
+        self.rename_field(ui, Named::Node, "Node name", name);
         let unit = self.preferences.unit;
         let mut node: NodeSpec = spec.clone();
         let mut all: Option<Response> = None;
@@ -87,12 +95,18 @@ impl Designer {
         if let [a, b] = element.places(draft, &self.model.places)[..] {
             ui.label(format!("{} from node to node", unit.text(a.distance(b))));
         }
+        if let Element::Edge(ends) = element
+            && let Some(line) = self.line_on(ends)
+        {
+            self.rename_field(ui, Named::Line, "Profile name", &line);
+        }
         if ui.button("Delete").on_hover_text("Its profile where it has one, else the edge").clicked() {
             self.delete();
         }
     }
 
     fn face(&mut self, ui: &mut egui::Ui, draft: &Draft, surface: &str, face: usize) {
+        self.rename_field(ui, Named::Surface, "Surface name", surface);
         let mut chosen = None;
         egui::ComboBox::from_label("Assign to surface").selected_text(surface).show_ui(ui, |ui| {
             let others = draft.template.surfaces.keys().filter(|s| *s != surface);
@@ -121,6 +135,12 @@ impl Designer {
             }
         });
         let mut piece = draft.template.pieces.get(surface).cloned().unwrap_or_default();
+        let label = piece.label.clone().unwrap_or_default();
+        if let Some(label) = self.name_field(ui, "Piece label", &label) {
+            let label = Some(label).filter(|l| !l.is_empty());
+            let piece = PieceSpec { label, ..piece.clone() };
+            self.edit(Edit::EditPiece { surface: surface.to_owned(), piece });
+        }
         let mut allowance = piece.allowance.unwrap_or(10.0);
         let response =
             ui.add(length(&mut allowance, 0.0..=40.0, self.preferences.unit).text("seam allowance"));
@@ -132,6 +152,9 @@ impl Designer {
         let joints = joints_of(draft);
         let Some(joint) = joints.get(number) else { return };
         ui.label(joint.nodes.join(" – "));
+        if draft.template.joints.is_some() {
+            self.joint_name_field(ui, number);
+        }
         if joint.surfaces.len() > 3 {
             ui.label("Split it: these two in one joint, the others in another");
             let mut split = None;

@@ -4,10 +4,14 @@ mod inspector;
 mod outline;
 pub(crate) mod pattern;
 
+pub(crate) use outline::section;
+
 use eframe::egui::{self, Key};
 
-use crate::actions::{Action, Menu, actions};
+use crate::actions::{Action, DRAWING_BOARD, Menu, Workspace};
+use crate::board;
 use crate::designer::Designer;
+use crate::layout::{INSPECTOR, OUTLINE, PATTERN};
 use crate::selection::Mode;
 use crate::tools::Tool;
 
@@ -18,25 +22,46 @@ impl Designer {
             self.tool_bar(ui);
         });
         egui::Panel::bottom("status").show(ui, |ui| self.status(ui));
-        egui::Panel::left("outline")
-            .default_size(190.0)
-            .show(ui, |ui| egui::ScrollArea::vertical().show(ui, |ui| self.outline(ui)));
-        egui::Panel::right("inspector").default_size(330.0).show(ui, |ui| {
-            egui::Panel::top("pattern")
-                .resizable(true)
-                .default_size(300.0)
-                .show(ui, |ui| self.pattern_view(ui));
-            egui::CentralPanel::default_margins().show(ui, |ui| {
-                egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| self.inspector(ui));
-            });
+        if self.workspace == Workspace::Drawing {
+            return self.board_panels(ui);
+        }
+        let [outline, pattern, inspector] = self.preferences.layout.panels;
+        if outline.is_shown {
+            let shown = egui::Panel::left(self.panel_id(OUTLINE))
+                .default_size(outline.size)
+                .show(ui, |ui| egui::ScrollArea::vertical().show(ui, |ui| self.outline(ui)));
+            self.preferences.layout.panels[OUTLINE].size = shown.response.rect.width();
+        }
+        if !(pattern.is_shown || inspector.is_shown) {
+            return;
+        }
+        let right = egui::Panel::right(self.panel_id(INSPECTOR)).default_size(inspector.size);
+        let shown = right.show(ui, |ui| match (pattern.is_shown, inspector.is_shown) {
+            (true, true) => {
+                let above =
+                    egui::Panel::top(self.panel_id(PATTERN)).resizable(true).default_size(pattern.size);
+                let above = above.show(ui, |ui| self.pattern_view(ui));
+                self.preferences.layout.panels[PATTERN].size = above.response.rect.height();
+                egui::CentralPanel::default_margins().show(ui, |ui| self.scrolled_inspector(ui));
+            }
+            (true, false) => self.pattern_view(ui),
+            _ => self.scrolled_inspector(ui),
         });
+        self.preferences.layout.panels[INSPECTOR].size = shown.response.rect.width();
+    }
+
+    fn scrolled_inspector(&mut self, ui: &mut egui::Ui) {
+        egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| self.inspector(ui));
     }
 
     fn menus(&mut self, ui: &mut egui::Ui) {
-        let all = actions();
+        let all = self.actions();
         let mut chosen: Option<&Action> = None;
         egui::MenuBar::new().ui(ui, |ui| {
             for (menu, name) in Menu::ALL {
+                if !all.iter().any(|a| a.menu == menu) {
+                    continue;
+                }
                 ui.menu_button(name, |ui| {
                     ui.set_min_width(220.0);
                     for action in all.iter().filter(|a| a.menu == menu) {
@@ -77,10 +102,13 @@ impl Designer {
 
     /// Tools, what clicks select, and the switches that hands look for.
     fn tool_bar(&mut self, ui: &mut egui::Ui) {
-        let all = actions();
+        let all = self.actions();
         let mut chosen: Option<&Action> = None;
         ui.horizontal_wrapped(|ui| {
-            let is_tool = |a: &&Action| Tool::ALL.iter().any(|(_, name, ..)| *name == a.text);
+            let is_tool = |a: &&Action| match self.workspace {
+                Workspace::Garment => Tool::ALL.iter().any(|(_, name, ..)| *name == a.text),
+                Workspace::Drawing => board::pen::Tool::ALL.iter().any(|(_, name, ..)| *name == a.text),
+            };
             let is_mode = |a: &&Action| Mode::ALL.iter().any(|(_, name)| *name == a.text);
             let is_switch = |a: &&Action| a.menu == Menu::View && a.is_on.is_some() && a.shortcut.is_some();
             let mut show = |ui: &mut egui::Ui, pick: &dyn Fn(&&Action) -> bool| {
@@ -95,8 +123,12 @@ impl Designer {
             show(ui, &is_tool);
             ui.separator();
             show(ui, &is_mode);
-            ui.separator();
+            if self.workspace == Workspace::Garment {
+                ui.separator();
+            }
             show(ui, &is_switch);
+            ui.separator();
+            show(ui, &|a: &&Action| a.text == DRAWING_BOARD);
         });
         if let Some(action) = chosen {
             action.run(self, &ui.ctx().clone());
@@ -105,16 +137,27 @@ impl Designer {
 
     fn status(&mut self, ui: &mut egui::Ui) {
         ui.horizontal(|ui| {
-            let busy = self.builder.step().or(self.file_job.as_ref().map(|j| j.what.clone()));
+            let busy = self.file_job.as_ref().map(|j| j.what.clone()).or(self.builder.step());
             if let Some(step) = busy {
                 ui.spinner();
                 ui.label(step);
-                if self.builder.step().is_some()
-                    && ui.small_button("Stop").on_hover_text("Stop building").clicked()
-                {
+                if ui.small_button("Stop").on_hover_text("Stop what is being built or made").clicked() {
                     self.stop();
                 }
                 ui.separator();
+            }
+            if self.workspace == Workspace::Drawing {
+                let pen = &self.board.pen;
+                ui.strong(board::pen::Tool::ALL.iter().find(|t| t.0 == pen.tool).map_or("", |t| t.1));
+                ui.label(pen.next_step());
+                let at = self.board.pointer_at().map(|at| {
+                    let [x, y] = [at.x, at.y].map(|v| self.preferences.unit.text(v));
+                    format!("{x}; {y}")
+                });
+                ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                    ui.weak(at.unwrap_or_default());
+                });
+                return;
             }
             let name = Tool::ALL.iter().find(|t| t.0 == self.tool).map_or("", |t| t.1);
             ui.strong(name);
@@ -132,7 +175,7 @@ impl Designer {
 
     pub(crate) fn show_palette(&mut self, context: &egui::Context) {
         let Some(mut text) = self.palette.take() else { return };
-        let all = actions();
+        let all = self.actions();
         let wanted = text.to_lowercase();
         let fits = |a: &&Action| {
             wanted

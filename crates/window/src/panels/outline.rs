@@ -88,7 +88,7 @@ impl Designer {
 }
 
 /// A heading with what is under it, folded away when there is nothing.
-fn section(ui: &mut egui::Ui, name: &str, count: usize, inside: impl FnOnce(&mut egui::Ui)) {
+pub(crate) fn section(ui: &mut egui::Ui, name: &str, count: usize, inside: impl FnOnce(&mut egui::Ui)) {
     if count > 0 {
         let header = egui::CollapsingHeader::new(format!("{name} ({count})")).id_salt(name);
         header.default_open(true).show(ui, inside);

@@ -7,6 +7,7 @@ use design::regenerate::Regenerated;
 use eframe::egui::{self, Color32, Pos2, Rect, Shape, Stroke};
 use glam::DVec2;
 use pattern::{OutlineChain, Piece};
+use sketch::polygon_holds;
 
 use crate::designer::Designer;
 use crate::selection::Element;
@@ -84,7 +85,7 @@ impl Designer {
             let is_chosen = written == self.session.surface;
             let is_hovered = hovered.as_deref() == Some(written.as_str());
             if let Some(p) = pointer {
-                let inside = piece.cut.first().is_some_and(|c| is_inside(&c.points, p - *offset));
+                let inside = piece.cut.first().is_some_and(|c| polygon_holds(&c.points, p - *offset));
                 if inside {
                     over = Some(written.clone());
                 }
@@ -247,16 +248,6 @@ fn paint_stretch(painter: &egui::Painter, sheet: &Sheet, flat: &pattern::Flat, o
         mesh.add_triangle(first, first + 1, first + 2);
     }
     painter.add(Shape::mesh(mesh));
-}
-
-/// Whether a closed polygon holds a point, by the number of sides to its right.
-fn is_inside(points: &[DVec2], p: DVec2) -> bool {
-    let n = points.len();
-    let crossings = (0..n).filter(|k| {
-        let (a, b) = (points[*k], points[(k + 1) % n]);
-        (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
-    });
-    crossings.count() % 2 == 1
 }
 
 /// Distance of a point to a polyline.

@@ -11,12 +11,12 @@ use crate::selection::{Element, Mode, joint_name, joints_of};
 
 #[derive(Default)]
 pub(super) struct Joint {
-    /// Edges that no joint has yet, in the order of clicks.
+    /// Edges for a joint, in the order of clicks.
     edges: Vec<[String; 2]>,
 }
 
 impl Joint {
-    /// Edges under the pointer that surfaces share without a joint.
+    /// The edge under the pointer that surfaces share.
     fn loose(at: DVec2, world: &World) -> Option<[String; 2]> {
         let shared = edges(&world.draft.template);
         world.picker.all(at, Mode::Edges).into_iter().find_map(|e| match e {
@@ -69,7 +69,10 @@ impl Machine for Joint {
     fn on(&mut self, event: Event, world: &World) -> Vec<Effect> {
         match event {
             Event::Click { at, add } => {
-                if let Some(joint) = world.picker.all(at, Mode::Joints).into_iter().next() {
+                let joint = world.picker.all(at, Mode::Joints).into_iter().next();
+                // The joint that is selected already is taken edge by edge, for a joint of their own.
+                let is_open = |j: &Element| !self.edges.is_empty() || world.selection.only() == Some(j);
+                if let Some(joint) = joint.filter(|j| add || !is_open(j)) {
                     return vec![if add { Effect::Toggle(vec![joint]) } else { Effect::Select(vec![joint]) }];
                 }
                 match Self::loose(at, world) {
@@ -118,8 +121,10 @@ impl Machine for Joint {
 
     fn next_step(&self, _: &World) -> String {
         match self.edges.len() {
-            0 => "click a joint: the inspector splits it; or click edges without a joint that surfaces share"
-                .to_owned(),
+            0 => {
+                "click a joint: the inspector splits it; click it again: its edges, for a joint of their own"
+                    .to_owned()
+            }
             n => format!("{n} edges: Enter joins them; Escape lets them go"),
         }
     }

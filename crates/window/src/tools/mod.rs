@@ -18,6 +18,7 @@ use glam::{DVec2, DVec3};
 pub(crate) use feature::Drawing;
 
 use crate::model::Model;
+use crate::region::Region;
 use crate::selection::{Element, Mode, Selection};
 use crate::view::pick::Picker;
 
@@ -36,7 +37,7 @@ pub(crate) enum Tool {
 impl Tool {
     /// Every tool with its name, key, and what it is for.
     pub(crate) const ALL: [(Self, &'static str, Key, &'static str); 7] = [
-        (Self::Select, "Select", Key::V, "Select, box-select and move"),
+        (Self::Select, "Select", Key::V, "Select, one or by a box or lasso, and move"),
         (Self::Node, "Node", Key::N, "Put nodes at feature points or anywhere on the body"),
         (Self::Edge, "Edge", Key::E, "Connect nodes"),
         (Self::Face, "Face", Key::F, "Fill faces of three or four nodes"),
@@ -69,6 +70,10 @@ pub(crate) enum Event {
     },
     /// A drag began; `from` is where the button went down.
     DragStart {
+        from: DVec2,
+    },
+    /// A drag with Ctrl began.
+    LassoStart {
         from: DVec2,
     },
     Drag {
@@ -110,13 +115,15 @@ pub(crate) struct Ghost {
 pub(crate) enum GhostShape {
     /// A line in space.
     Line(Vec<DVec3>),
+    /// A thin line in space: what is there already.
+    Thin(Vec<DVec3>),
     /// A filled outline in space.
     Area(Vec<DVec3>),
     Point(DVec3),
     /// A line of the picture: ink.
     Ink(Vec<DVec2>),
-    /// A box of the picture.
-    Box(DVec2, DVec2),
+    /// A box or a lasso of the picture.
+    Region(Region),
     /// Words beside a pixel.
     Text(DVec2, String),
 }

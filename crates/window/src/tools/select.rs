@@ -1,10 +1,11 @@
-//! Selecting, box selection, moving nodes.
+//! Selecting, by boxes and lassos too; moving nodes.
 
 use design::draft::Edit;
 use glam::{DMat3, DVec2, DVec3};
 use template::format::NodeSpec;
 
 use super::{Effect, Event, Ghost, GhostShape, Machine, World};
+use crate::region::Region;
 use crate::selection::{Element, Mode};
 
 /// Clicks nearer than this to the one before go on to the next element under the pointer, points.
@@ -22,10 +23,7 @@ enum Drag {
     #[default]
     None,
     Node(Box<NodeDrag>),
-    Box {
-        from: DVec2,
-        to: DVec2,
-    },
+    Region(Region),
 }
 
 /// A node that is dragged across the line of sight.
@@ -89,7 +87,7 @@ impl Machine for Select {
                 self.last = None;
                 let node = (world.mode == Mode::Nodes).then(|| world.node(from)).flatten();
                 let Some(name) = node else {
-                    self.drag = Drag::Box { from, to: from };
+                    self.drag = Drag::Region(Region::new(from, false));
                     return Vec::new();
                 };
                 match NodeDrag::start(&name, from, world) {
@@ -100,18 +98,23 @@ impl Machine for Select {
                     Err(e) => vec![Effect::Problem(e)],
                 }
             }
+            Event::LassoStart { from } => {
+                (self.last, self.drag) = (None, Drag::Region(Region::new(from, true)));
+                Vec::new()
+            }
             Event::Drag { to } => match &mut self.drag {
                 Drag::Node(drag) => vec![Effect::Live(drag.edit(to))],
-                Drag::Box { to: end, .. } => {
-                    *end = to;
+                Drag::Region(region) => {
+                    region.reach(to);
                     Vec::new()
                 }
                 Drag::None => Vec::new(),
             },
             Event::DragEnd { to, add } => match std::mem::take(&mut self.drag) {
                 Drag::Node(_) => vec![Effect::Settle],
-                Drag::Box { from, .. } => {
-                    let inside = world.picker.within(from, to, world.mode);
+                Drag::Region(mut region) => {
+                    region.reach(to);
+                    let inside = world.picker.within(&region, world.mode);
                     if add { vec![Effect::Toggle(inside)] } else { vec![Effect::Select(inside)] }
                 }
                 Drag::None => Vec::new(),
@@ -121,7 +124,7 @@ impl Machine for Select {
                     let back = Edit::MoveNode { name: drag.name, node: drag.node };
                     vec![Effect::Live(back), Effect::Settle]
                 }
-                Drag::Box { .. } => Vec::new(),
+                Drag::Region(_) => Vec::new(),
                 Drag::None if world.selection.elements.is_empty() => Vec::new(),
                 Drag::None => vec![Effect::Select(Vec::new())],
             },
@@ -131,7 +134,7 @@ impl Machine for Select {
 
     fn ghosts(&self, _: Option<DVec2>, _: &World) -> Vec<Ghost> {
         match &self.drag {
-            Drag::Box { from, to } => vec![Ghost::legal(GhostShape::Box(*from, *to))],
+            Drag::Region(region) => vec![Ghost::legal(GhostShape::Region(region.clone()))],
             _ => Vec::new(),
         }
     }
@@ -144,7 +147,7 @@ impl Machine for Select {
             Mode::Joints => "a joint",
         };
         format!(
-            "click {kind}; again for what lies behind; Shift adds; drag a box; 1 2 3 4 choose what is selected"
+            "click {kind}; again: behind it; Shift adds; drag a box, with Ctrl a lasso; 1 2 3 4 change the kind"
         )
     }
 

@@ -3,10 +3,11 @@
 use design::draft::{Edit, edges};
 use glam::{DVec2, DVec3};
 use sketch::{
-    Camera, PickOptions, PickedEdge, Plane, ProfileOptions, SketchError, SpaceEdge, Stabiliser, Stroke,
-    bisecting_plane, fitted_plane, pick_edges, profiles,
+    Camera, DrawnOver, PickOptions, PickedEdge, Plane, ProfileOptions, SketchError, SpaceEdge, Stabiliser,
+    Stroke, bisecting_plane, drawn_over, fitted_plane, pick_edges, profiles, redrawn,
 };
-use template::format::LineSpec;
+use template::format::{LineSpec, Shape};
+use template::lines::{Detail, Profile};
 
 use super::{Effect, Event, Ghost, GhostShape, Machine, World};
 use crate::model::Face;
@@ -114,6 +115,49 @@ fn edit(meaning: &Meaning, stroke: &Stroke, world: &World) -> Result<Option<Edit
     })
 }
 
+/// The part of a profile that a stroke draws over: the profile's name, the part, and its edge's ends.
+struct Over {
+    name: String,
+    nodes: [String; 2],
+    part: DrawnOver,
+    ends: [DVec3; 2],
+}
+
+/// The curve of a profile where its edge is now.
+fn curve(line: &LineSpec, world: &World) -> Option<Profile> {
+    let (Some(Shape::Profile(profile)), [a, b]) = (&line.shape, &line.through[..]) else { return None };
+    let detail = if profile.turn { Detail::Turned } else { Detail::Kept };
+    let drawn = profile.points.iter().map(|p| DVec3::from_array(*p)).collect();
+    Some(Profile::new(drawn).moved(world.place(a)?, world.place(b)?, detail))
+}
+
+fn over(stroke: &Stroke, world: &World) -> Option<Over> {
+    let camera = &world.picker.eye.camera;
+    world.draft.template.lines.iter().find_map(|(name, line)| {
+        let now = curve(line, world)?;
+        let [a, b] = &line.through[..] else { return None };
+        let ends = [world.place(a)?, world.place(b)?];
+        let part = drawn_over(camera, stroke, now.points(), world.pixel_scale)?;
+        let middle = part.parts[1][part.parts[1].len() / 2];
+        let is_seen = world.picker.sees(middle, SLACK);
+        is_seen.then(|| Over { name: name.clone(), nodes: [a.clone(), b.clone()], part, ends })
+    })
+}
+
+/// The profile with its part drawn again, as an edit.
+fn redraw(over: &Over, stroke: &Stroke, world: &World) -> Result<(Edit, Plane), SketchError> {
+    let camera = &world.picker.eye.camera;
+    let plane =
+        bisecting_plane(camera, &SpaceEdge { ends: over.ends }, &normals_at(&sorted(&over.nodes), world))?;
+    let points = redrawn(camera, stroke, &over.part, &plane, &ProfileOptions::default())?;
+    let points = points.iter().map(|p| p.to_array()).collect();
+    Ok((Edit::DrawProfile { name: over.name.clone(), nodes: over.nodes.clone(), points }, plane))
+}
+
+fn sorted([a, b]: &[String; 2]) -> [String; 2] {
+    if a <= b { [a.clone(), b.clone()] } else { [b.clone(), a.clone()] }
+}
+
 impl Sketch {
     fn stroke(&self) -> Option<Stroke> {
         Stroke::new(self.ink.as_ref()?.points()).ok()
@@ -140,6 +184,12 @@ impl Machine for Sketch {
                 let Some(ink) = self.ink.take() else { return Vec::new() };
                 let drawn = Stroke::new(&ink.finish(to)).and_then(|stroke| {
                     let meaning = meaning(&stroke, world)?;
+                    if meaning.picked.is_empty()
+                        && let Some(over) = over(&stroke, world)
+                    {
+                        let (edit, plane) = redraw(&over, &stroke, world)?;
+                        return Ok((Some(edit), Some((plane, over.ends.to_vec()))));
+                    }
                     let edit = edit(&meaning, &stroke, world)?;
                     let ends = meaning.picked.iter().flat_map(|p| meaning.space[p.edge].ends).collect();
                     Ok((edit, meaning.plane.map(|plane| (plane, ends))))
@@ -150,8 +200,8 @@ impl Machine for Sketch {
                         vec![Effect::Edit(edit)]
                     }
                     Ok((None, _)) => vec![Effect::Problem(
-                        "the stroke is near both ends of no visible edge; draw from node to node along an edge of a \
-                         face"
+                        "the stroke is near both ends of no visible edge, and does not begin and end on a profile; \
+                         draw from node to node along an edge of a face, or over a part of a profile"
                             .to_owned(),
                     )],
                     Err(e) => vec![Effect::Problem(e.to_string())],
@@ -166,20 +216,28 @@ impl Machine for Sketch {
                 Vec::new()
             }
             Event::Cancel => vec![Effect::Select(Vec::new())],
-            Event::Confirm => Vec::new(),
+            Event::LassoStart { .. } | Event::Confirm => Vec::new(),
         }
     }
 
     fn ghosts(&self, _: Option<DVec2>, world: &World) -> Vec<Ghost> {
-        let mut out = Vec::new();
+        // Edges are drawn straight; these are the curves that can be drawn over.
+        let curves = world.draft.template.lines.values().filter_map(|line| curve(line, world));
+        let seen = curves.filter(|c| world.picker.sees(c.place(0.5), SLACK));
+        let mut out: Vec<Ghost> = seen.map(|c| Ghost::legal(GhostShape::Thin(c.points().to_vec()))).collect();
         let mut shown = self.plane.clone();
         if let Some(stroke) = self.stroke() {
+            // What the stroke so far would replace of a profile.
+            let part = over(&stroke, world).map(|o| GhostShape::Line(o.part.parts[1].clone()));
             if let Ok(meaning) = meaning(&stroke, world) {
                 for pick in &meaning.picked {
                     out.push(Ghost::legal(GhostShape::Line(meaning.space[pick.edge].ends.to_vec())));
                 }
                 let ends = meaning.picked.iter().flat_map(|p| meaning.space[p.edge].ends).collect();
                 shown = meaning.plane.map(|plane| (plane, ends));
+                if let Some(shape) = part.filter(|_| meaning.picked.is_empty()) {
+                    out.push(Ghost { shape, is_legal: false });
+                }
             }
             let mut ink = stroke.points().to_vec();
             // The ink is never behind the pen.
@@ -197,7 +255,7 @@ impl Machine for Sketch {
             return "draw on to the next node; the shaded plane is the one that the stroke goes on"
                 .to_owned();
         }
-        "draw from node to node over edges of faces; draw again to change a profile; Delete takes that of the chosen edge"
+        "draw from node to node over edges of faces, or over a part of a profile; Delete takes that of the chosen edge"
             .to_owned()
     }
 

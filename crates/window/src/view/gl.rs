@@ -10,18 +10,27 @@ use eframe::egui_glow::{self, ShaderVersion};
 use eframe::glow::{self, HasContext};
 use glam::DMat4;
 use sketch::Camera;
-use viewer::{Hidden, MeshBuffer, Scene};
+use viewer::{Hidden, MeshBuffer, Scene, SceneMesh};
 
 use super::shaders::{LINE_FRAGMENT, LINE_VERTEX, MESH_FRAGMENT, MESH_VERTEX};
+use super::{Part, SEEN_THROUGH};
 
 /// Bytes of a vertex of a line: both ends (six `f32`), which end and side (two `f32`), half the width (`f32`), colour.
 const LINE_STRIDE: i32 = 40;
 
-/// What the callback needs, made anew when the scene changes.
+/// What has changed since the last picture.
 #[derive(Default)]
 struct Upload {
-    mesh: Option<MeshBuffer>,
+    /// By part.
+    meshes: [Option<Surface>; Part::COUNT],
     lines: Option<Vec<u8>>,
+}
+
+/// A surface on its way to the processor that draws.
+struct Surface {
+    buffer: MeshBuffer,
+    /// Nobody outside sees its reverse.
+    is_closed: bool,
 }
 
 /// A picture's camera in the terms of the shaders.
@@ -34,19 +43,33 @@ struct Uniforms {
     key: [f32; 3],
     fill: [f32; 3],
     up: [f32; 3],
+    /// The garment is seen through.
+    x_ray: bool,
+    /// The eye is before everything, so that it sees no closed surface from within.
+    is_outside: bool,
 }
 
 struct Programs {
-    mesh: glow::Program,
+    /// For surfaces whose both sides are seen.
+    open: glow::Program,
+    /// For those of which only the front is.
+    closed: glow::Program,
     line: glow::Program,
-    mesh_array: glow::VertexArray,
-    mesh_buffer: glow::Buffer,
-    index_buffer: glow::Buffer,
+    /// By part.
+    meshes: [Resident; Part::COUNT],
     line_array: glow::VertexArray,
     line_buffer: glow::Buffer,
-    mesh_indices: i32,
     /// Vertices of lines that are drawn faint where hidden, then of those that show through, then of those that do not.
     line_runs: [i32; 3],
+}
+
+/// A surface where it is drawn.
+struct Resident {
+    array: glow::VertexArray,
+    corners: glow::Buffer,
+    indices: glow::Buffer,
+    count: i32,
+    is_closed: bool,
 }
 
 #[derive(Default)]
@@ -78,8 +101,10 @@ impl GlPainter {
         self.shared.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    pub(crate) fn set_meshes(&self, scene: &Scene) {
-        self.lock().upload.mesh = Some(MeshBuffer::of(&scene.meshes));
+    /// Another surface, or none, in place of a part.
+    pub(crate) fn set_mesh(&self, part: Part, mesh: Option<&SceneMesh>, is_closed: bool) {
+        let buffer = MeshBuffer::of(mesh.map_or(&[], std::slice::from_ref));
+        self.lock().upload.meshes[part as usize] = Some(Surface { buffer, is_closed });
     }
 
     pub(crate) fn set_lines(&self, scene: &Scene) {
@@ -95,8 +120,9 @@ impl GlPainter {
         rect: egui::Rect,
         camera: &Camera,
         bounds: Option<[glam::DVec3; 2]>,
+        x_ray: bool,
     ) -> egui::Shape {
-        let uniforms = uniforms(camera, bounds);
+        let uniforms = Uniforms { x_ray, ..uniforms(camera, bounds) };
         let painter = self.clone();
         let callback = egui_glow::CallbackFn::new(move |info, glow| {
             let viewport = info.viewport_in_pixels();
@@ -134,12 +160,15 @@ impl GlPainter {
         if let Some(p) = self.lock().programs.take() {
             // SAFETY: all names were made by this context, which is current when the window closes.
             unsafe {
-                gl.delete_program(p.mesh);
-                gl.delete_program(p.line);
-                gl.delete_vertex_array(p.mesh_array);
+                for program in [p.open, p.closed, p.line] {
+                    gl.delete_program(program);
+                }
+                for mesh in p.meshes {
+                    gl.delete_vertex_array(mesh.array);
+                    gl.delete_buffer(mesh.corners);
+                    gl.delete_buffer(mesh.indices);
+                }
                 gl.delete_vertex_array(p.line_array);
-                gl.delete_buffer(p.mesh_buffer);
-                gl.delete_buffer(p.index_buffer);
                 gl.delete_buffer(p.line_buffer);
             }
         }
@@ -148,47 +177,42 @@ impl GlPainter {
 
 impl Programs {
     fn new(gl: &glow::Context) -> Result<Self, String> {
-        let mesh_fragment = format!("{}{MESH_FRAGMENT}", MeshBuffer::LIGHT);
-        let mesh = link(gl, MESH_VERTEX, &mesh_fragment)?;
-        let line = link(gl, LINE_VERTEX, LINE_FRAGMENT)?;
+        let vertex = format!("{}{MESH_VERTEX}", MeshBuffer::LIGHT);
+        let corner = ["position", "normal", "front", "reverse"];
+        let open = link(gl, &vertex, MESH_FRAGMENT, corner)?;
+        let only_front = |source: &str| format!("#define ONLY_FRONT\n{source}");
+        let closed = link(gl, &only_front(&vertex), &only_front(MESH_FRAGMENT), corner)?;
+        let line = link(gl, LINE_VERTEX, LINE_FRAGMENT, ["a", "b", "corner", "color"])?;
         // SAFETY: the context is current inside a paint callback, and every name below was made by it.
         unsafe {
-            let (mesh_array, mesh_buffer) = (gl.create_vertex_array()?, gl.create_buffer()?);
-            gl.bind_vertex_array(Some(mesh_array));
-            gl.bind_buffer(glow::ARRAY_BUFFER, Some(mesh_buffer));
-            let index_buffer = gl.create_buffer()?;
-            // The array remembers its indices.
-            gl.bind_buffer(glow::ELEMENT_ARRAY_BUFFER, Some(index_buffer));
-            let attribute = |program, name: &str, count, kind, normalised, stride, offset| {
-                if let Some(place) = gl.get_attrib_location(program, name) {
-                    gl.enable_vertex_attrib_array(place);
-                    gl.vertex_attrib_pointer_f32(place, count, kind, normalised, stride, offset);
-                }
+            let attribute = |place, count, kind, normalised, stride, offset| {
+                gl.enable_vertex_attrib_array(place);
+                gl.vertex_attrib_pointer_f32(place, count, kind, normalised, stride, offset);
             };
-            let stride = MeshBuffer::STRIDE as i32;
-            attribute(mesh, "position", 3, glow::FLOAT, false, stride, 0);
-            attribute(mesh, "normal", 3, glow::FLOAT, false, stride, 12);
-            attribute(mesh, "front", 4, glow::UNSIGNED_BYTE, true, stride, 24);
-            attribute(mesh, "reverse", 4, glow::UNSIGNED_BYTE, true, stride, 28);
+            let resident = || -> Result<Resident, String> {
+                let (array, corners, indices) =
+                    (gl.create_vertex_array()?, gl.create_buffer()?, gl.create_buffer()?);
+                gl.bind_vertex_array(Some(array));
+                gl.bind_buffer(glow::ARRAY_BUFFER, Some(corners));
+                // The array remembers its indices.
+                gl.bind_buffer(glow::ELEMENT_ARRAY_BUFFER, Some(indices));
+                let stride = MeshBuffer::STRIDE as i32;
+                attribute(0, 3, glow::FLOAT, false, stride, 0);
+                attribute(1, 3, glow::FLOAT, false, stride, 12);
+                attribute(2, 4, glow::UNSIGNED_BYTE, true, stride, 24);
+                attribute(3, 4, glow::UNSIGNED_BYTE, true, stride, 28);
+                Ok(Resident { array, corners, indices, count: 0, is_closed: false })
+            };
+            let meshes = [resident()?, resident()?];
             let (line_array, line_buffer) = (gl.create_vertex_array()?, gl.create_buffer()?);
             gl.bind_vertex_array(Some(line_array));
             gl.bind_buffer(glow::ARRAY_BUFFER, Some(line_buffer));
-            attribute(line, "a", 3, glow::FLOAT, false, LINE_STRIDE, 0);
-            attribute(line, "b", 3, glow::FLOAT, false, LINE_STRIDE, 12);
-            attribute(line, "corner", 3, glow::FLOAT, false, LINE_STRIDE, 24);
-            attribute(line, "color", 4, glow::UNSIGNED_BYTE, true, LINE_STRIDE, 36);
+            attribute(0, 3, glow::FLOAT, false, LINE_STRIDE, 0);
+            attribute(1, 3, glow::FLOAT, false, LINE_STRIDE, 12);
+            attribute(2, 3, glow::FLOAT, false, LINE_STRIDE, 24);
+            attribute(3, 4, glow::UNSIGNED_BYTE, true, LINE_STRIDE, 36);
             gl.bind_vertex_array(None);
-            Ok(Self {
-                mesh,
-                line,
-                mesh_array,
-                mesh_buffer,
-                index_buffer,
-                line_array,
-                line_buffer,
-                mesh_indices: 0,
-                line_runs: [0; 3],
-            })
+            Ok(Self { open, closed, line, meshes, line_array, line_buffer, line_runs: [0; 3] })
         }
     }
 
@@ -201,11 +225,13 @@ impl Programs {
                 gl.bind_buffer(glow::ARRAY_BUFFER, None);
             }
         };
-        if let Some(mesh) = upload.mesh {
-            fill(self.mesh_buffer, &mesh.bytes);
-            let indices: Vec<u8> = mesh.indices.iter().flat_map(|k| k.to_ne_bytes()).collect();
-            fill(self.index_buffer, &indices);
-            self.mesh_indices = i32::try_from(mesh.indices.len()).unwrap_or(0);
+        for (resident, surface) in self.meshes.iter_mut().zip(upload.meshes) {
+            let Some(Surface { buffer, is_closed }) = surface else { continue };
+            fill(resident.corners, &buffer.bytes);
+            let indices: Vec<u8> = buffer.indices.iter().flat_map(|k| k.to_ne_bytes()).collect();
+            fill(resident.indices, &indices);
+            resident.count = i32::try_from(buffer.indices.len()).unwrap_or(0);
+            resident.is_closed = is_closed;
         }
         if let Some(lines) = upload.lines {
             fill(self.line_buffer, &lines);
@@ -221,18 +247,47 @@ impl Programs {
             gl.clear_depth_f32(1.0);
             gl.clear(glow::DEPTH_BUFFER_BIT);
             gl.disable(glow::BLEND);
-            gl.disable(glow::CULL_FACE);
 
-            gl.use_program(Some(self.mesh));
-            let at = |name| gl.get_uniform_location(self.mesh, name);
-            gl.uniform_matrix_4_f32_slice(at("clip").as_ref(), false, &u.clip);
-            for (name, v) in
-                [("eye", u.eye), ("sight", u.sight), ("key", u.key), ("fill", u.fill), ("up", u.up)]
-            {
-                gl.uniform_3_f32_slice(at(name).as_ref(), &v);
+            gl.cull_face(glow::BACK);
+            let order = if u.x_ray { [Part::Body, Part::Garment] } else { Part::ALL };
+            for part in order {
+                let mesh = &self.meshes[part as usize];
+                if mesh.count == 0 {
+                    continue;
+                }
+                let only_front = mesh.is_closed && u.is_outside;
+                let program = if only_front { self.closed } else { self.open };
+                if only_front {
+                    gl.enable(glow::CULL_FACE);
+                } else {
+                    gl.disable(glow::CULL_FACE);
+                }
+                gl.use_program(Some(program));
+                let at = |name| gl.get_uniform_location(program, name);
+                gl.uniform_matrix_4_f32_slice(at("clip").as_ref(), false, &u.clip);
+                for (name, v) in
+                    [("eye", u.eye), ("sight", u.sight), ("key", u.key), ("fill", u.fill), ("up", u.up)]
+                {
+                    gl.uniform_3_f32_slice(at(name).as_ref(), &v);
+                }
+                gl.bind_vertex_array(Some(mesh.array));
+                let draw = |strength: f32| {
+                    gl.uniform_1_f32(at("strength").as_ref(), strength);
+                    gl.draw_elements(glow::TRIANGLES, mesh.count, glow::UNSIGNED_INT, 0);
+                };
+                if u.x_ray && part == Part::Garment {
+                    // The nearest layer alone is blended: first its depth, then its colour.
+                    gl.color_mask(false, false, false, false);
+                    draw(1.0);
+                    gl.color_mask(true, true, true, true);
+                    gl.depth_func(glow::LEQUAL);
+                    gl.enable(glow::BLEND);
+                    draw(SEEN_THROUGH);
+                } else {
+                    draw(1.0);
+                }
             }
-            gl.bind_vertex_array(Some(self.mesh_array));
-            gl.draw_elements(glow::TRIANGLES, self.mesh_indices, glow::UNSIGNED_INT, 0);
+            gl.disable(glow::CULL_FACE);
 
             gl.enable(glow::BLEND);
             gl.depth_mask(false);
@@ -266,7 +321,13 @@ impl Programs {
     }
 }
 
-fn link(gl: &glow::Context, vertex: &str, fragment: &str) -> Result<glow::Program, String> {
+/// A program whose attributes have these names, in the order of their places.
+fn link(
+    gl: &glow::Context,
+    vertex: &str,
+    fragment: &str,
+    attributes: [&str; 4],
+) -> Result<glow::Program, String> {
     let version = ShaderVersion::get(gl);
     let head = format!("{}\n{}", version.version_declaration(), "precision highp float;\n");
     // SAFETY: the context is current; shaders are deleted when the program holds them.
@@ -282,6 +343,9 @@ fn link(gl: &glow::Context, vertex: &str, fragment: &str) -> Result<glow::Progra
             }
             gl.attach_shader(program, shader);
             shaders.push(shader);
+        }
+        for (place, name) in (0..).zip(attributes) {
+            gl.bind_attrib_location(program, place, name);
         }
         gl.link_program(program);
         if !gl.get_program_link_status(program) {
@@ -329,6 +393,9 @@ fn line_bytes(scene: &Scene) -> (Vec<u8>, [i32; 3]) {
 fn uniforms(c: &Camera, bounds: Option<[glam::DVec3; 2]>) -> Uniforms {
     let (right, up, back) = (c.right(), c.up, c.back);
     let toward = |x: f64, y: f64, z: f64| (right * x + up * y + back * z).normalize().as_vec3().to_array();
+    let is_within = |[low, high]: [glam::DVec3; 2]| {
+        c.eye().is_some_and(|eye| eye.cmpge(low).all() && eye.cmple(high).all())
+    };
     let sky = if glam::DVec3::Y.dot(back).abs() > 0.9 { up } else { glam::DVec3::Y };
     Uniforms {
         clip: clip_matrix(c, bounds).to_cols_array().map(|x| x as f32),
@@ -338,6 +405,8 @@ fn uniforms(c: &Camera, bounds: Option<[glam::DVec3; 2]>) -> Uniforms {
         key: toward(-0.52, 0.66, 0.62),
         fill: toward(0.75, 0.05, 0.55),
         up: sky.as_vec3().to_array(),
+        x_ray: false,
+        is_outside: !bounds.is_some_and(is_within),
     }
 }
 

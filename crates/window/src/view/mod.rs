@@ -11,11 +11,23 @@ use eframe::egui::{self, Color32, ColorImage, Pos2, Rect, TextureHandle, Texture
 use eframe::glow;
 use glam::{DVec2, DVec3};
 use sketch::Camera;
-use viewer::{Color, Lens, RenderOptions, Scene};
+use viewer::{Color, Lens, RenderOptions, Scene, SceneMesh};
 
 pub(crate) use eye::Eye;
 pub(crate) use gl::GlPainter;
 pub(crate) use solids::{Seen, Solids};
+
+/// A surface that is seen. The garment first: what it hides need not be drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Part {
+    Garment,
+    Body,
+}
+
+impl Part {
+    const COUNT: usize = 2;
+    const ALL: [Self; Self::COUNT] = [Self::Garment, Self::Body];
+}
 
 /// What is seen, and from where.
 pub(crate) struct View {
@@ -24,6 +36,10 @@ pub(crate) struct View {
     /// Where the view was last on the screen.
     pub(crate) rect: Rect,
     scene: Scene,
+    /// What the scene's surfaces are, and whether they are closed.
+    parts: Vec<(Part, bool)>,
+    /// The garment is seen through.
+    x_ray: bool,
     bounds: Option<[DVec3; 2]>,
     revision: u64,
     picture: Option<Picture>,
@@ -36,6 +52,17 @@ struct Picture {
     texture: Option<TextureHandle>,
 }
 
+/// How much of a surface that the eye goes through is seen.
+const SEEN_THROUGH: f32 = 0.5;
+
+/// Lets what is behind through.
+fn mix(pixels: &mut [u8], behind: &[u8]) {
+    for (own, other) in pixels.iter_mut().zip(behind) {
+        let mixed = f32::from(*own) * SEEN_THROUGH + f32::from(*other) * (1.0 - SEEN_THROUGH);
+        *own = mixed.round() as u8;
+    }
+}
+
 impl View {
     /// A view that draws by OpenGL where there is a painter, else by the processor.
     pub(crate) fn new(gl: Option<GlPainter>) -> Self {
@@ -44,6 +71,8 @@ impl View {
             solids: Solids::default(),
             rect: Rect::NOTHING,
             scene: Scene::default(),
+            parts: Vec::new(),
+            x_ray: false,
             bounds: None,
             revision: 0,
             picture: None,
@@ -51,15 +80,41 @@ impl View {
         }
     }
 
-    /// Shows other surfaces, and the lines and points about them.
-    pub(crate) fn set_scene(&mut self, scene: Scene) {
-        self.scene = scene;
+    /// Shows another surface, or none, in place of a part. Of a closed one whose faces look outward the reverse is not drawn.
+    pub(crate) fn set_mesh(&mut self, part: Part, mesh: Option<SceneMesh>, is_closed: bool) {
+        let at = self.parts.iter().position(|(p, _)| *p == part);
+        match (at, mesh) {
+            (Some(k), Some(mesh)) => {
+                self.scene.meshes[k] = mesh;
+                self.parts[k].1 = is_closed;
+            }
+            (Some(k), None) => {
+                self.scene.meshes.remove(k);
+                self.parts.remove(k);
+            }
+            (None, Some(mesh)) => {
+                self.scene.meshes.push(mesh);
+                self.parts.push((part, is_closed));
+            }
+            (None, None) => return,
+        }
         self.bounds = self.scene.bounds();
         self.revision += 1;
-        if let Some(gl) = &self.gl {
-            gl.set_meshes(&self.scene);
-            gl.set_lines(&self.scene);
+        self.send(part);
+    }
+
+    /// Shows the garment so that the body is seen through it, or not.
+    pub(crate) fn set_x_ray(&mut self, x_ray: bool) {
+        if std::mem::replace(&mut self.x_ray, x_ray) != x_ray {
+            self.revision += 1;
         }
+    }
+
+    /// Gives a part to the painter.
+    fn send(&self, part: Part) {
+        let Some(gl) = &self.gl else { return };
+        let shown = self.parts.iter().zip(&self.scene.meshes).find(|((p, _), _)| *p == part);
+        gl.set_mesh(part, shown.map(|(_, mesh)| mesh), shown.is_some_and(|((_, is_closed), _)| *is_closed));
     }
 
     /// Shows other lines and points about the same surfaces.
@@ -79,8 +134,8 @@ impl View {
     /// Draws by OpenGL from now on, or by the processor.
     pub(crate) fn set_painter(&mut self, gl: Option<GlPainter>) {
         self.gl = gl;
+        Part::ALL.into_iter().for_each(|part| self.send(part));
         if let Some(gl) = &self.gl {
-            gl.set_meshes(&self.scene);
             gl.set_lines(&self.scene);
         }
     }
@@ -100,8 +155,8 @@ impl View {
         if let Some(gl) = &self.gl {
             let problem = gl.problem();
             if problem.is_none() {
-                ui.painter().rect_filled(rect, 0.0, ui.visuals().panel_fill);
-                ui.painter().add(gl.shape(rect, &self.eye.camera, self.bounds));
+                // The ground is the window's own: it is cleared to the panels' colour.
+                ui.painter().add(gl.shape(rect, &self.eye.camera, self.bounds, self.x_ray));
                 return None;
             }
             self.gl = None;
@@ -115,7 +170,7 @@ impl View {
     /// The picture is made anew only when the camera, its size or the scene changed.
     fn paint_by_processor(&mut self, ui: &egui::Ui, rect: Rect) {
         let scale = ui.ctx().pixels_per_point();
-        let background = ui.visuals().panel_fill;
+        let background = ui.ctx().global_style().visuals.panel_fill;
         let of = (self.eye.camera, self.revision, background, scale);
         if self.picture.as_ref().is_none_or(|p| p.of != of) {
             let c = &self.eye.camera;
@@ -135,7 +190,11 @@ impl View {
             // An empty scene has no picture; the background stays.
             let texture = viewer::render(&self.scene, &camera, &options).ok().map(|image| {
                 let size = [image.width() as usize, image.height() as usize];
-                let image = ColorImage::from_rgb(size, image.rgb());
+                let mut pixels = image.rgb().to_vec();
+                if let Some(behind) = self.behind(&camera, &options) {
+                    mix(&mut pixels, &behind);
+                }
+                let image = ColorImage::from_rgb(size, &pixels);
                 ui.ctx().load_texture("3D view", image, TextureOptions::LINEAR)
             });
             self.picture = Some(Picture { of, texture });
@@ -144,6 +203,16 @@ impl View {
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
             ui.painter().image(texture.id(), rect, whole, Color32::WHITE);
         }
+    }
+
+    /// The picture without the garment, where that is seen through.
+    fn behind(&self, camera: &viewer::Camera, options: &RenderOptions) -> Option<Vec<u8>> {
+        let garment = self.parts.iter().position(|(p, _)| *p == Part::Garment).filter(|_| self.x_ray)?;
+        let mut scene = self.scene.clone();
+        scene.meshes.remove(garment);
+        let pixels = 3 * options.width as usize * options.height as usize;
+        let plain = || options.background.0.iter().copied().cycle().take(pixels).collect();
+        Some(viewer::render(&scene, camera, options).map_or_else(|_| plain(), |image| image.rgb().to_vec()))
     }
 
     /// Where a place is on the screen.

@@ -7,6 +7,7 @@ use sketch::Sight;
 
 use super::{Eye, Solids};
 use crate::model::Wireframe;
+use crate::region::Region;
 use crate::selection::{Element, Mode};
 
 /// A node within this of the pointer is under it, points.
@@ -139,13 +140,9 @@ impl Picker<'_> {
         found.into_iter().map(|(.., e)| e).take(8).collect()
     }
 
-    /// Everything of a kind whose places all lie within a box.
-    pub(crate) fn within(&self, from: DVec2, to: DVec2, mode: Mode) -> Vec<Element> {
-        let (low, high) = (from.min(to), from.max(to));
-        let inside = |p: &DVec3| {
-            let at = self.eye.camera.project(*p);
-            at.is_some_and(|at| at.cmpge(low).all() && at.cmple(high).all())
-        };
+    /// Everything of a kind whose places all lie within a part of the picture.
+    pub(crate) fn within(&self, region: &Region, mode: Mode) -> Vec<Element> {
+        let inside = |p: &DVec3| self.eye.camera.project(*p).is_some_and(|at| region.holds(at));
         let node = |name: &String| self.places.get(name).is_some_and(&inside);
         match mode {
             Mode::Nodes => self

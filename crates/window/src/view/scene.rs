@@ -4,7 +4,7 @@ use design::pictures::{stretch_percent, stretch_scale};
 use glam::DVec3;
 use mesh_kernel::TriMesh;
 use mesh_kernel::query::plane_section;
-use viewer::{Color, ColorMap, Hidden, Paint, Scale, Scene, SceneLine, SceneMesh, ScenePoint};
+use viewer::{Color, ColorMap, Hidden, Paint, Scale, SceneLine, SceneMesh, ScenePoint};
 
 use crate::model::Model;
 
@@ -89,34 +89,39 @@ pub(crate) fn valence_color(surfaces: usize, is_dark: bool) -> Color {
     }
 }
 
-/// The surfaces, cut where a section asks.
-pub(crate) fn surfaces(model: &Model, look: &Look) -> Vec<SceneMesh> {
-    let mut meshes = Vec::new();
-    if let (true, Some(body)) = (look.body, &model.body) {
-        meshes.push(SceneMesh::body(&body.on.body.mesh));
+/// The body, cut where a section asks.
+pub(crate) fn body(model: &Model, look: &Look) -> Option<SceneMesh> {
+    let body = model.body.as_ref().filter(|_| look.body)?;
+    Some(cut_by(look.section, SceneMesh::body(&body.on.body.mesh)))
+}
+
+/// The garment, cut where a section asks.
+pub(crate) fn garment(model: &Model, look: &Look) -> Option<SceneMesh> {
+    let cloth = model.cloth.as_ref().filter(|_| look.garment)?;
+    let mesh = SceneMesh::garment(&cloth.mesh);
+    let paint = look.colouring.scale().and_then(|(scale, _)| match look.colouring {
+        Colouring::Patches => None,
+        Colouring::Distance => (cloth.distances.len() == cloth.mesh.positions.len())
+            .then(|| Paint::NodeValues { values: cloth.distances.clone(), scale }),
+        Colouring::Stretch => {
+            let flats = &cloth.made.as_ref()?.pattern.flats;
+            let values: Vec<f64> =
+                flats.iter().flat_map(|f| &f.stretch).map(|s| stretch_percent(*s)).collect();
+            (values.len() == cloth.mesh.faces.len()).then_some(Paint::FaceValues { values, scale })
+        }
+    });
+    let mesh = match paint {
+        Some(paint) => mesh.painted(paint),
+        None => mesh,
+    };
+    Some(cut_by(look.section, mesh))
+}
+
+fn cut_by(section: Option<Section>, mut mesh: SceneMesh) -> SceneMesh {
+    if let Some(section) = section {
+        cut(&mut mesh, section);
     }
-    if let (true, Some(cloth)) = (look.garment, &model.cloth) {
-        let mesh = SceneMesh::garment(&cloth.mesh);
-        let paint = look.colouring.scale().and_then(|(scale, _)| match look.colouring {
-            Colouring::Patches => None,
-            Colouring::Distance => (cloth.distances.len() == cloth.mesh.positions.len())
-                .then(|| Paint::NodeValues { values: cloth.distances.clone(), scale }),
-            Colouring::Stretch => {
-                let flats = &cloth.made.as_ref()?.pattern.flats;
-                let values: Vec<f64> =
-                    flats.iter().flat_map(|f| &f.stretch).map(|s| stretch_percent(*s)).collect();
-                (values.len() == cloth.mesh.faces.len()).then_some(Paint::FaceValues { values, scale })
-            }
-        });
-        meshes.push(match paint {
-            Some(paint) => mesh.painted(paint),
-            None => mesh,
-        });
-    }
-    if let Some(section) = look.section {
-        meshes.iter_mut().for_each(|mesh| cut(mesh, section));
-    }
-    meshes
+    mesh
 }
 
 /// Leaves out what lies beyond the plane; faces that it crosses are cut.
@@ -208,12 +213,6 @@ pub(crate) fn template_lines(model: &Model, look: &Look) -> (Vec<SceneLine>, Vec
         }
     }
     (lines, points)
-}
-
-/// Everything.
-pub(crate) fn scene(model: &Model, look: &Look) -> Scene {
-    let (lines, points) = template_lines(model, look);
-    Scene { meshes: surfaces(model, look), lines, points, ..Scene::default() }
 }
 
 #[cfg(test)]

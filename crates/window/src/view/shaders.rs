@@ -1,52 +1,55 @@
 //! The shaders of the painter by OpenGL.
 
-/// Corners of surfaces to clip space.
+/// Corners of surfaces to clip space, in the light of the viewer's pictures; goes after `MeshBuffer::LIGHT`. Light is worked out
+/// at corners and not at pixels: surfaces have fewer corners than pixels, and where a processor draws, pixels cost most.
 pub(super) const MESH_VERTEX: &str = "
 uniform mat4 clip;
-in vec3 position;
-in vec3 normal;
-in vec4 front;
-in vec4 reverse;
-out vec3 v_place;
-out vec3 v_normal;
-out vec4 v_front;
-out vec4 v_reverse;
-void main() {
-    v_place = position;
-    v_normal = normal;
-    v_front = front;
-    v_reverse = reverse;
-    gl_Position = clip * vec4(position, 1.0);
-}
-";
-
-/// Surfaces in the light of the viewer's pictures; goes after `MeshBuffer::LIGHT`.
-pub(super) const MESH_FRAGMENT: &str = "
 uniform vec3 eye;
 uniform vec3 sight;
 uniform vec3 key;
 uniform vec3 fill;
 uniform vec3 up;
-in vec3 v_place;
-in vec3 v_normal;
-in vec4 v_front;
-in vec4 v_reverse;
-out vec4 out_color;
-void main() {
-    vec3 to_eye = sight == vec3(0.0) ? normalize(eye - v_place) : sight;
-    bool is_front = gl_FrontFacing;
-    vec3 n = normalize(v_normal);
-    if (!is_front) {
-        n = -n;
-    }
+in vec3 position;
+in vec3 normal;
+in vec4 front;
+in vec4 reverse;
+out vec3 v_front;
+#ifndef ONLY_FRONT
+out vec3 v_reverse;
+#endif
+vec3 shaded(vec4 color, vec3 n, vec3 to_eye) {
     float lean = dot(n, to_eye);
     if (lean < 0.0) {
         n = normalize(n - to_eye * lean);
     }
-    vec4 color = is_front ? v_front : v_reverse;
     vec3 light = lit(pow(color.rgb, vec3(2.2)), n, to_eye, key, fill, up, color.a > 0.5);
-    out_color = vec4(pow(clamp(light, 0.0, 1.0), vec3(1.0 / 2.2)), 1.0);
+    return pow(clamp(light, 0.0, 1.0), vec3(1.0 / 2.2));
 }
+void main() {
+    vec3 to_eye = sight == vec3(0.0) ? normalize(eye - position) : sight;
+    v_front = shaded(front, normal, to_eye);
+#ifndef ONLY_FRONT
+    v_reverse = shaded(reverse, -normal, to_eye);
+#endif
+    gl_Position = clip * vec4(position, 1.0);
+}
+";
+
+/// The side of a surface that is seen; with `ONLY_FRONT` defined in both shaders there is but one.
+pub(super) const MESH_FRAGMENT: &str = "
+uniform float strength;
+in vec3 v_front;
+out vec4 out_color;
+#ifdef ONLY_FRONT
+void main() {
+    out_color = vec4(v_front, 1.0) * strength;
+}
+#else
+in vec3 v_reverse;
+void main() {
+    out_color = vec4(gl_FrontFacing ? v_front : v_reverse, 1.0) * strength;
+}
+#endif
 ";
 
 /// Lines and points as quads of so many pixels; what is behind the eye is left out.

@@ -129,6 +129,57 @@ fn work_that_a_killed_window_left_is_offered_and_comes_back() {
 }
 
 #[test]
+fn the_garment_becomes_a_solid_of_the_thickness_that_is_written() {
+    let mut window = Window::new(Draft::empty());
+    window.action("Thicken");
+    assert!(window.message().contains("no garment yet"), "{}", window.message());
+    let mut window = half_skirt();
+    window.wait(Designer::is_built);
+    let path = window.folder.path().join("skirt.obj");
+    let volume = |window: &mut Window, thickness: &str| {
+        let _ = std::fs::remove_file(&path);
+        window.action("Thicken");
+        window.write("Thickness", thickness);
+        window.write("Path", &path.display().to_string());
+        window.click("Thicken");
+        window.wait(|d| d.is_idle());
+        assert!(window.message().contains("solid of"), "{}", window.message());
+        let solid = mesh_kernel::files::read(&path).unwrap();
+        let corner = |v: u32| solid.positions[v as usize];
+        let six: f64 = solid.faces.iter().map(|f| corner(f[0]).cross(corner(f[1])).dot(corner(f[2]))).sum();
+        six / 6.0
+    };
+    let [thin, thick] = ["1", "3"].map(|t| volume(&mut window, t));
+    assert!((2.8..3.2).contains(&(thick / thin)), "{thin} {thick}");
+    window.action("Thicken");
+    window.write("Path", "/tmp/skirt.txt");
+    window.click("Thicken");
+    window.wait(|d| d.is_idle());
+    assert!(window.message().contains("must end in"), "{}", window.message());
+}
+
+#[test]
+fn an_export_that_is_stopped_writes_nothing() {
+    let mut window = half_skirt();
+    window.wait(Designer::is_built);
+    let folder = window.folder.path().join("skirt.export");
+    window.keys(Modifiers::COMMAND, Key::E);
+    window.write("Path", &folder.display().to_string());
+    window.key(Key::Enter);
+    assert!(window.has("exporting"), "{}", window.message());
+    window.click("Stop");
+    assert!(window.message().contains("nothing is written"), "{}", window.message());
+    assert!(window.harness.state().is_idle() && !window.has("exporting"));
+    // The next one goes on as ever.
+    window.keys(Modifiers::COMMAND, Key::E);
+    window.write("Path", &folder.display().to_string());
+    assert!(!folder.exists());
+    window.key(Key::Enter);
+    window.wait(Designer::is_idle);
+    assert!(folder.join("report.json").is_file(), "{}", window.message());
+}
+
+#[test]
 fn solids_and_sheets_go_from_file_to_file() {
     let mut window = Window::new(Draft::empty());
     let tray = format!("{}/../../samples/desk-tray.obj", env!("CARGO_MANIFEST_DIR"));

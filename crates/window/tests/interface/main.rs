@@ -3,10 +3,14 @@
 // A test that cannot go on fails.
 #![allow(clippy::unwrap_used)]
 
+mod board;
+mod browsing;
 mod files;
 mod from_nothing;
 mod hand;
 mod keyboard;
+mod layout;
+mod names;
 mod pictures;
 mod renderer;
 mod support;

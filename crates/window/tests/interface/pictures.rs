@@ -3,6 +3,7 @@
 use eframe::egui::Key;
 use egui_kittest::SnapshotOptions;
 
+use crate::board::typed;
 use crate::from_nothing::half_skirt_in;
 use crate::support::{Window, sample};
 use design::draft::Draft;
@@ -41,6 +42,31 @@ fn a_dress_with_its_pattern() {
     let mut window = Window::sized([620.0, 340.0], dress, None, tempfile::tempdir().unwrap());
     window.wait(window::Designer::is_built);
     window.harness.snapshot_options("dress", &options());
+}
+
+#[test]
+fn a_plate_on_the_drawing_board() {
+    let mut window = Window::sized([640.0, 360.0], Draft::empty(), None, tempfile::tempdir().unwrap());
+    window.key(Key::F3);
+    window.key(Key::L);
+    for text in ["-60; -45", "120; 0", "0; 55", "-80; 35", "-40; -90"] {
+        typed(&mut window, text);
+    }
+    window.key(Key::Escape);
+    window.key(Key::R);
+    window.stroke_click(window.at("point 2"));
+    window.key(Key::O);
+    typed(&mut window, "15; -10");
+    typed(&mut window, "15");
+    window.key(Key::V);
+    window.click("line 3");
+    window.click("Level");
+    window.key(Key::L);
+    window.stroke_click(window.at("point 4"));
+    let at = window.at("line 7") + eframe::egui::vec2(2.0, -3.0);
+    window.harness.event(eframe::egui::Event::PointerMoved(at));
+    window.steps();
+    window.harness.snapshot_options("drawing-board", &options());
 }
 
 #[test]

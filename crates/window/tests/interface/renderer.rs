@@ -41,7 +41,9 @@ impl TestRenderer for CpuRenderer {
 
     fn render(&mut self, context: &Context, output: &FullOutput) -> Result<RgbaImage, String> {
         let size = context.content_rect().size() * output.pixels_per_point;
-        let mut picture = RgbaImage::from_pixel(size.x as u32, size.y as u32, Rgba([0, 0, 0, 255]));
+        // As the window is cleared.
+        let ground = Rgba(context.global_style().visuals.panel_fill.to_array());
+        let mut picture = RgbaImage::from_pixel(size.x as u32, size.y as u32, ground);
         for ClippedPrimitive { clip_rect, primitive } in
             context.tessellate(output.shapes.clone(), output.pixels_per_point)
         {

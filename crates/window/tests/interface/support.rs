@@ -35,13 +35,24 @@ impl Window {
         folder: TempDir,
     ) -> Self {
         let start = Start { draft, file, state: folder.path().join("state") };
+        Self::of(size, Designer::new(start), folder)
+    }
+
+    /// With this instead of the desktop's file dialog.
+    pub(crate) fn with_dialog(draft: Draft, dialog: window::FileDialog) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let start = Start { draft, file: None, state: folder.path().join("state") };
+        Self::of(SIZE, Designer::new(start).with_file_dialog(dialog), folder)
+    }
+
+    fn of(size: [f32; 2], designer: Designer, folder: TempDir) -> Self {
         let harness = Harness::builder()
             .with_size(size)
             .with_theme(Theme::Light)
             .with_step_dt(1.0 / 60.0)
             .with_max_steps(64)
             .renderer(CpuRenderer::default())
-            .build_eframe(|_| Designer::new(start));
+            .build_eframe(|_| designer);
         let mut window = Self { harness, folder };
         window.wait(Designer::is_idle);
         window
@@ -131,6 +142,7 @@ impl Window {
         modifiers: Modifiers,
     ) {
         let press = |pos, pressed| Event::PointerButton { pos, button, pressed, modifiers };
+        self.harness.event(Event::ModifiersChanged(modifiers));
         self.harness.event(Event::PointerMoved(through[0]));
         self.harness.step();
         self.harness.event(press(through[0], true));
@@ -145,6 +157,7 @@ impl Window {
         let last = *through.last().unwrap();
         self.harness.event(press(last, false));
         self.harness.step();
+        self.harness.event(Event::ModifiersChanged(Modifiers::NONE));
         self.steps();
         self.harness.remove_cursor();
     }

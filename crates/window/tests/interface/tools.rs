@@ -52,6 +52,41 @@ fn clicks_select_by_kind_and_a_box_selects_many() {
 }
 
 #[test]
+fn a_lasso_takes_what_it_goes_round() {
+    let mut window = half_skirt();
+    window.key(Key::F5);
+    window.key(Key::V);
+    let [waist, hip, side] =
+        ["centre_front_waist", "centre_front_hip", "left_side_hip"].map(|n| window.at(&format!("node {n}")));
+    let before = window.draft().clone();
+    // Round the front's middle and the hip at the side, past the waist at the side; it begins on a node, which stays.
+    let through = [
+        waist,
+        waist - vec2(20.0, 20.0),
+        hip + vec2(-20.0, 20.0),
+        side + vec2(20.0, 20.0),
+        side + vec2(20.0, -20.0),
+        hip + vec2(20.0, -20.0),
+        waist + vec2(20.0, -20.0),
+    ];
+    window.drag(eframe::egui::PointerButton::Primary, &through, 4, Modifiers::COMMAND);
+    assert!(window.has("3 selected"), "{:?}", window.labels());
+    assert_eq!(*window.draft(), before);
+    window.drag(
+        eframe::egui::PointerButton::Primary,
+        &[
+            waist - vec2(30.0, 30.0),
+            waist + vec2(20.0, -30.0),
+            waist + vec2(20.0, 20.0),
+            waist + vec2(-30.0, 20.0),
+        ],
+        4,
+        Modifiers::COMMAND | Modifiers::SHIFT,
+    );
+    assert!(window.has("2 selected"), "with Shift what was selected is taken out: {:?}", window.labels());
+}
+
+#[test]
 fn a_node_anywhere_on_the_body_is_bound_to_the_nearest_feature_point() {
     let mut window = Window::new(Draft::empty());
     window.key(Key::N);
@@ -131,6 +166,44 @@ fn a_stroke_over_two_edges_is_one_entry_and_can_be_drawn_again() {
 }
 
 #[test]
+fn a_part_of_a_profile_is_drawn_over_and_the_rest_stays() {
+    let mut window = half_skirt();
+    window.key(Key::F5);
+    window.key(Key::K);
+    let [a, b] = ["node centre_front_hip", "node left_side_hip"].map(|n| window.at(n));
+    window.stroke(&[a, b]);
+    let profile = |window: &Window| {
+        let lines = &window.draft().template.lines;
+        assert_eq!(lines.len(), 1, "{}", window.message());
+        let shape = lines.values().next().unwrap().shape.clone();
+        let Some(template::format::Shape::Profile(p)) = shape else { panic!("a profile") };
+        p.points
+    };
+    let before = profile(&window);
+    // From a third of the way to two thirds, over a lower place.
+    let [from, to] = [0.35, 0.65].map(|t| a + (b - a) * t);
+    let middle = a + (b - a) * 0.5 + vec2(0.0, 14.0);
+    window.stroke(&[from, middle, to]);
+    let after = profile(&window);
+    let least = |points: &[[f64; 3]], shares: std::ops::Range<f64>| {
+        let count = points.len() as f64;
+        let inside = points.iter().enumerate().filter(|(k, _)| shares.contains(&(*k as f64 / count)));
+        inside.map(|(_, p)| p[1]).fold(f64::INFINITY, f64::min)
+    };
+    assert!(least(&before, 0.4..0.6) - least(&after, 0.4..0.6) > 5.0, "{}", window.message());
+    for rest in [0.0..0.25, 0.75..1.0] {
+        assert!((least(&before, rest.clone()) - least(&after, rest)).abs() < 1.5);
+    }
+    assert_eq!((before[0], before.last()), (after[0], after.last()));
+    window.keys(Modifiers::COMMAND, Key::Z);
+    assert_eq!(profile(&window), before);
+    // A touch is no stroke over a part.
+    window.stroke(&[from, from + vec2(0.0, 30.0)]);
+    assert_eq!(profile(&window), before);
+    assert!(window.message().contains("over a part of a profile"), "{}", window.message());
+}
+
+#[test]
 fn curves_are_drawn_on_the_body_in_three_ways() {
     let mut window = Window::new(Draft::empty());
     window.key(Key::N);
@@ -154,6 +227,34 @@ fn curves_are_drawn_on_the_body_in_three_ways() {
         window.labels().into_iter().find(|l| l.starts_with("feature point") && l.contains("drawn"));
     window.click(&crossing.expect("the closed curve crosses the centre front"));
     assert_eq!(window.draft().template.nodes.len(), 1, "{}", window.message());
+}
+
+#[test]
+fn the_body_is_seen_through_the_cloth_in_x_ray() {
+    let mut window = half_skirt();
+    window.wait(Designer::is_built);
+    window.key(Key::F5);
+    // In the middle of the left front.
+    let [a, b] = ["node centre_front_waist", "node left_side_hip"].map(|n| window.at(n));
+    let at = a + (b - a) * 0.5;
+    window.key(Key::T);
+    let color = |window: &mut Window| {
+        window.steps();
+        let picture = window.harness.render().unwrap();
+        picture.get_pixel(at.x as u32, at.y as u32).0.map(f32::from)
+    };
+    let cloth = color(&mut window);
+    window.key(Key::G);
+    let body = color(&mut window);
+    window.key(Key::G);
+    window.key(Key::X);
+    let through = color(&mut window);
+    assert!((0..3).any(|k| (cloth[k] - body[k]).abs() > 20.0), "{cloth:?} {body:?}: the place shows cloth");
+    for k in 0..3 {
+        assert!((through[k] - 0.5 * (cloth[k] + body[k])).abs() < 3.0, "{cloth:?} {body:?} {through:?}");
+    }
+    window.key(Key::X);
+    assert_eq!(color(&mut window), cloth);
 }
 
 #[test]

@@ -2,8 +2,11 @@
 
 use std::path::Path;
 
+use design::drawings::of_script;
 use fuzz::{Reader, Reading, Shape};
+use mesh_kernel::glam::DVec2;
 use sheet::model::{Limits, Script, ScriptError};
+use sketch::{Drawing, Rule};
 
 use crate::run;
 
@@ -71,6 +74,93 @@ fn script() {
             vec_of(complex.vertex_count(), complex.edge_count(), complex.face_count())
         }),
     });
+}
+
+/// The drawing that a script begins with.
+#[test]
+fn drawing_of_script() {
+    let draws = |seed: &Vec<u8>| std::str::from_utf8(seed).is_ok_and(|s| s.contains("outline"));
+    let seeds: Vec<Vec<u8>> = seeds().into_iter().filter(draws).collect();
+    assert!(seeds.len() > 5);
+    run(Reader {
+        name: "drawing_of_script",
+        shape: Shape::Json,
+        seeds,
+        words: &[
+            "null", "0", "-1", "1e308", "1e-308", "[0,0]", "outline", "holes", "drawings", "wire", "draw",
+        ],
+        inputs: 4_000,
+        // Two thousand points, and the copies that edits work on.
+        base_memory: 16 << 20,
+        memory_factor: 2_000,
+        read: Box::new(|bytes| {
+            let Ok(text) = std::str::from_utf8(bytes) else { return Reading::Refused("no text".into()) };
+            match of_script(text) {
+                Ok((drawing, _)) => sound(&drawing),
+                Err(error) => Reading::Refused(error.to_string().chars().take(60).collect()),
+            }
+        }),
+    });
+}
+
+/// A drawing as drafts hold it.
+#[test]
+fn drawing() {
+    let mut drawing = Drawing::default();
+    let [a, b, c, d] = [(0.0, 0.0), (50.0, 0.0), (50.0, 40.0), (0.0, 40.0)]
+        .map(|(x, y)| drawing.add_point(DVec2::new(x, y)).expect("finite"));
+    let one = drawing.add_line(a, b).expect("a line");
+    let other = drawing.add_bezier(b, DVec2::new(60.0, 5.0), DVec2::new(60.0, 35.0), c).expect("a curve");
+    drawing.set_smooth(b, true).expect("a line and a curve");
+    drawing.add_arc(c, DVec2::new(25.0, 50.0), d).expect("an arc");
+    drawing.add_spline(&[d, c, a]).expect("a spline");
+    drawing.add_circle(d, 5.0).expect("a circle");
+    for rule in [Rule::Level(one), Rule::Length(one, 50.0), Rule::Fixed(a, DVec2::ZERO)] {
+        drawing.add_rule(rule).expect("rules that hold");
+    }
+    assert!(drawing.curve(other).is_ok());
+    run(Reader {
+        name: "drawing",
+        shape: Shape::Json,
+        seeds: vec![serde_json::to_vec(&drawing).expect("pairs and numbers")],
+        words: &[
+            "null",
+            "0",
+            "-1",
+            "4294967295",
+            "1e308",
+            "1e-308",
+            "true",
+            "[1,1]",
+            "fixed",
+            "parallel",
+            "circle",
+        ],
+        inputs: 8_000,
+        base_memory: 16 << 20,
+        memory_factor: 2_000,
+        read: Box::new(|bytes| match serde_json::from_slice::<Drawing>(bytes) {
+            Ok(drawing) => sound(&drawing),
+            Err(error) => Reading::Refused(error.to_string().chars().take(60).collect()),
+        }),
+    });
+}
+
+/// What holds of every drawing: it is read as it was written, its shapes have curves, and it can be edited.
+fn sound(drawing: &Drawing) -> Reading {
+    let text = serde_json::to_string(drawing).expect("pairs and numbers");
+    assert_eq!(serde_json::from_str::<Drawing>(&text).expect("what was written is read"), *drawing);
+    assert!(drawing.shapes().all(|(id, _)| drawing.curve(id).is_ok_and(|c| c.length() > 0.0)));
+    let mut edited = drawing.clone();
+    if edited.add_point(DVec2::ONE).is_ok() {
+        assert_eq!(edited.points().count(), drawing.points().count() + 1, "numbers are given once");
+    }
+    let ids: Vec<_> = drawing.shapes().map(|(id, _)| id).collect();
+    for id in ids {
+        edited.delete_shape(id).expect("it is there");
+    }
+    assert!(edited.rules().iter().all(|rule| rule.shapes().is_empty()));
+    Reading::Sound(vec![drawing.points().count(), drawing.shapes().count(), drawing.rules().len()])
 }
 
 fn vec_of(v: usize, e: usize, f: usize) -> Reading {
