@@ -101,6 +101,10 @@ const FINE_AIM: f64 = 3.0;
 const EASE_ROUNDS: usize = 12;
 /// Nodes that move farther from one preview to the next have leapt, mm.
 const LEAP: f64 = 10.0;
+/// Rounds of pushing out after which a garment's girth is measured; what is left then is some tenths of a millimetre after
+/// two, which a preview may leave.
+const PUSHES: usize = 3;
+const PREVIEW_PUSHES: usize = 2;
 /// Rounds on the fine garment after a search on the coarse one.
 const FINE_ROUNDS: usize = 5;
 /// A garment with as many faces is fine enough to measure girths on: some 60 chords round a hip, 0.3 mm short.
@@ -293,10 +297,11 @@ pub fn regenerate(
     }
     let faces: Vec<_> = eases.iter().map(|l| l.faces(fine.refined)).collect();
     let rounds = if rough.is_some() { FINE_ROUNDS } else { EASE_ROUNDS };
+    let push_rounds = if options.preview { PREVIEW_PUSHES } else { PUSHES };
     let mut round = 0;
     let (positions, moved) = loop {
         let mut positions = build(pushes(&eases), &fine)?;
-        let mut moved = fine.drape.push_out(&mut positions, 3, None)?;
+        let mut moved = fine.drape.push_out(&mut positions, push_rounds, None)?;
         round += 1;
         let settled = round >= rounds || step_eases(&mut eases, &faces, &positions, FINE_AIM);
         clock.stage(0.7 + 0.03 * round as f64, "fairing")?;

@@ -5,6 +5,7 @@
 //! the girths to what was asked.
 
 use mesh_kernel::TriMesh;
+use rayon::prelude::*;
 
 use super::curve::Curve;
 use super::error::FormError;
@@ -98,11 +99,12 @@ impl Pliable {
         for _ in 0..2 {
             remesh::onto(&mut half, &field, 2);
         }
-        let off = |v: u32| field.bare(half.positions[v as usize]).abs();
+        let mut on_skin = vec![false; half.positions.len()];
         let skin = half.faces.iter().zip(&half.label).filter(|(_, label)| **label == 0);
-        let worst = skin.flat_map(|(face, _)| *face).max_by(|a, b| off(*a).total_cmp(&off(*b)));
-        if let Some(v) = worst.filter(|v| off(*v) > OFF) {
-            return Err(FormError::Folded { height: half.positions[v as usize].y / 10.0 });
+        skin.flat_map(|(face, _)| face).for_each(|v| on_skin[*v as usize] = true);
+        let nodes = half.positions.par_iter().zip(&on_skin).with_min_len(256).filter(|(_, skin)| **skin);
+        if let Some((p, _)) = nodes.find_first(|(p, _)| field.bare(**p).abs() > OFF) {
+            return Err(FormError::Folded { height: p.y / 10.0 });
         }
         for _ in 0..3 {
             let factor = tape::correction(&half, &field, &resolved);

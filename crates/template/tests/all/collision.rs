@@ -3,6 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use mesh_kernel::glam::DVec3;
+use mesh_kernel::query::SignedDistance;
 use template::{
     Garment, Method, Reference, RegenerateOptions, Template, TemplateError, WarmStart, regenerate,
 };
@@ -165,6 +166,7 @@ fn previews_that_begin_warm_are_those_that_begin_cold() {
     let (mesh, features) = model::trunk();
     let reference = Reference { mesh: &mesh, features: &features };
     let warm = WarmStart::default();
+    let body = SignedDistance::new(&mesh);
     let previewed = |template: &Template, levels: u8, warm: Option<&WarmStart>| {
         let options =
             RegenerateOptions { levels: Some(levels), preview: true, warm, ..RegenerateOptions::default() };
@@ -183,6 +185,9 @@ fn previews_that_begin_warm_are_those_that_begin_cold() {
         let (first, next) = (previewed(&template, levels, None), previewed(&template, levels, Some(&warm)));
         for garment in [&first, &next] {
             assert!(garment.ease.values().all(|got| (got - ease).abs() < 3.5), "{:?}", garment.ease);
+            let nodes = garment.body.to_tri_mesh().positions;
+            let nearest = nodes.iter().map(|p| body.signed(*p).distance).fold(f64::INFINITY, f64::min);
+            assert!(nearest > 3.0 - 1.0, "{offset} {ease} {levels}: {nearest} from the skin");
         }
         // The eases may differ by their tolerance, 6 mm round a body: a millimetre outward.
         assert!(apart(&first, &next) < 2.0, "{offset} {ease} {levels}: {}", apart(&first, &next));
