@@ -8,6 +8,7 @@ use std::collections::{BTreeMap, BinaryHeap};
 
 use super::segments::Segments;
 use super::solid::Solid;
+use super::star::Star;
 use super::walls::Walls;
 
 /// A group that a node belongs to, with the node of that group which is nearest to it.
@@ -36,6 +37,8 @@ pub(super) struct Blends {
     of_node: BTreeMap<u32, Vec<Belongs>>,
     /// Whether each group is a blend.
     pub(super) is_blend: Vec<bool>,
+    /// Groups with an edge in common, ascending; both ways.
+    touching: Vec<[u32; 2]>,
 }
 
 /// Distances are compared by their bits: they are not negative.
@@ -49,7 +52,8 @@ impl Blends {
             !walls.is_wall[g as usize] && (group.plane.is_none() || is_chamfer(solid, segments, walls, g))
         };
         let is_blend: Vec<bool> = (0..segments.groups.len() as u32).map(is_blend).collect();
-        let mut blends = Self { is_blend, ..Self::default() };
+        let star = Star::new(&solid.mesh.faces, solid.mesh.positions.len());
+        let mut blends = Self { is_blend, touching: touching(solid, segments), ..Self::default() };
         // Blends that run into each other are one: a fillet in facets, and its corners.
         let mut seen = vec![false; segments.groups.len()];
         for first in 0..segments.groups.len() as u32 {
@@ -69,7 +73,7 @@ impl Blends {
                 }
                 at += 1;
             }
-            blends.look_behind(solid, segments, walls, &together);
+            blends.look_behind(solid, segments, walls, &star, &together);
         }
         blends
     }
@@ -79,7 +83,14 @@ impl Blends {
         self.of_node.get(&node).map_or(&[], Vec::as_slice)
     }
 
-    fn look_behind(&mut self, solid: &Solid, segments: &Segments, walls: &Walls, together: &[u32]) {
+    fn look_behind(
+        &mut self,
+        solid: &Solid,
+        segments: &Segments,
+        walls: &Walls,
+        star: &Star,
+        together: &[u32],
+    ) {
         // Nodes on the blend's border, by the group beyond.
         let mut borders: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         let mut links: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
@@ -110,17 +121,17 @@ impl Blends {
             if own.is_empty() {
                 continue;
             }
-            let facing = |b: &Belongs| group_normal_at(solid, segments, b);
+            let facing = |b: &Belongs| group_normal_at(solid, segments, star, b);
             let mine: Vec<_> = own.iter().map(facing).collect();
             let meets = |b: &Belongs| {
                 // A rib's side touches that of a rib across it, but not the floor that it is blended with.
                 let is_own = own.iter().any(|o| o.group == b.group);
-                let apart = own.iter().any(|o| !self.touch(segments, solid, o.group, b.group));
+                let apart = own.iter().any(|o| !self.touch(o.group, b.group));
                 // Where a rib stands, the end of both walls also reaches to the floor's other side.
-                let under = walls.partners(b.group).iter().any(|p| {
-                    own.iter()
-                        .any(|o| o.group != p.partner && self.touch(segments, solid, o.group, p.partner))
-                });
+                let under = walls
+                    .partners(b.group)
+                    .iter()
+                    .any(|p| own.iter().any(|o| o.group != p.partner && self.touch(o.group, p.partner)));
                 !is_own && apart && !under && mine.iter().all(|n| n.dot(facing(b)).abs() < PARALLEL)
             };
             let others: Vec<&(f64, Belongs)> = reached.iter().filter(|r| meets(&r.1)).collect();
@@ -139,11 +150,7 @@ impl Blends {
             }
             let end = others.iter().find(|r| !walls.is_wall[r.1.group as usize] && r.0 <= within);
             let behind: Vec<Belongs> = wall.into_iter().chain(end).map(|r| r.1).collect();
-            let behind = if behind.is_empty() {
-                self.at_an_end(segments, solid, walls, &own, &reached)
-            } else {
-                behind
-            };
+            let behind = if behind.is_empty() { self.at_an_end(walls, &own, &reached) } else { behind };
             if !behind.is_empty() {
                 self.of_node.entry(node).or_default().extend(behind);
             }
@@ -152,37 +159,32 @@ impl Blends {
 
     /// For a node where a blend ends on a wall across it: the two nearest walls that it blends, both of which touch that one but not
     /// each other.
-    fn at_an_end(
-        &self,
-        segments: &Segments,
-        solid: &Solid,
-        walls: &Walls,
-        own: &[Belongs],
-        reached: &[(f64, Belongs)],
-    ) -> Vec<Belongs> {
+    fn at_an_end(&self, walls: &Walls, own: &[Belongs], reached: &[(f64, Belongs)]) -> Vec<Belongs> {
         let [across] = own else { return Vec::new() };
         let touching = |b: &&Belongs| {
-            b.group != across.group
-                && walls.is_wall[b.group as usize]
-                && self.touch(segments, solid, b.group, across.group)
+            b.group != across.group && walls.is_wall[b.group as usize] && self.touch(b.group, across.group)
         };
         let beside: Vec<Belongs> = reached.iter().map(|r| &r.1).filter(touching).copied().collect();
         match beside[..] {
-            [p, q] if !self.touch(segments, solid, p.group, q.group) => vec![p, q],
+            [p, q] if !self.touch(p.group, q.group) => vec![p, q],
             _ => Vec::new(),
         }
     }
 
-    /// Whether two groups have an edge in common.
-    fn touch(&self, segments: &Segments, solid: &Solid, g: u32, other: u32) -> bool {
-        let [small, large] = if segments.group(g).faces.len() < segments.group(other).faces.len() {
-            [g, other]
-        } else {
-            [other, g]
-        };
-        let sides = segments.group(small).faces.iter().flat_map(|f| 3 * f..3 * f + 3);
-        sides.into_iter().any(|h| segments.of(solid.across(h)) == large)
+    /// Whether two groups have an edge in common. O(log n).
+    fn touch(&self, g: u32, other: u32) -> bool {
+        self.touching.binary_search(&[g, other]).is_ok()
     }
+}
+
+/// Groups with an edge in common.
+fn touching(solid: &Solid, segments: &Segments) -> Vec<[u32; 2]> {
+    let beside = |h: u32| [segments.of(h / 3), segments.of(solid.across(h))];
+    let mut touching: Vec<[u32; 2]> =
+        (0..3 * solid.len()).map(beside).filter(|[g, other]| g != other).collect();
+    touching.sort_unstable();
+    touching.dedup();
+    touching
 }
 
 /// Whether a plane face without a partner is a narrow strip that turns in two steps: from wall to wall, or from a wall to its end.
@@ -217,13 +219,12 @@ fn is_chamfer(solid: &Solid, segments: &Segments, walls: &Walls, g: u32) -> bool
 }
 
 /// The mean normal of the faces of a group about a node of it.
-fn group_normal_at(solid: &Solid, segments: &Segments, b: &Belongs) -> glam::DVec3 {
+fn group_normal_at(solid: &Solid, segments: &Segments, star: &Star, b: &Belongs) -> glam::DVec3 {
     if let Some(plane) = segments.group(b.group).plane {
         return plane.normal;
     }
-    let faces = &segments.group(b.group).faces;
-    let about = faces.iter().filter(|f| solid.mesh.faces[**f as usize].contains(&b.at));
-    about.map(|f| solid.normals[*f as usize]).sum::<glam::DVec3>().normalize_or_zero()
+    let about = star.of(b.at).iter().map(|c| c / 3).filter(|f| segments.of(*f) == b.group);
+    about.map(|f| solid.normals[f as usize]).sum::<glam::DVec3>().normalize_or_zero()
 }
 
 /// For every node, the nearest of some nodes along the edges, and how far it is.

@@ -21,8 +21,9 @@ const MANY: usize = 30;
 const SURROUNDINGS: [usize; 3] = [40, 16, 7];
 /// Shapes are compared when they have grown to so many facets.
 const COMPARED: usize = 600;
-/// After so many facets in a row about which no shape fits, the rest of a group is freeform.
+/// After so many facets in a row about which no shape fits, or none that covers this share of its group, the rest is freeform.
 const FAILURES: usize = 300;
+const SMALL: f64 = 2e-3;
 /// Passes over a group, at most.
 const PASSES: usize = 4;
 /// A group of which this share is freeform is so as a whole.
@@ -132,15 +133,21 @@ impl<'a> Growth<'a> {
 
     fn faces(mut self) -> Vec<Face> {
         let own = &self.segments.group(self.group).faces;
-        // Anywhere, so that large faces are met soon and no part of the group is forgotten.
-        let mut order = own.clone();
-        order.sort_by_key(|f| (f.wrapping_mul(0x9E37_79B1), *f));
+        // Anywhere, large facets sooner, so that large faces are met soon and no part of the group is forgotten.
+        let weighted = |f: &u32| {
+            let scattered = f64::from(f.wrapping_mul(0x9E37_79B1)) / f64::from(u32::MAX);
+            (-scattered.ln() / self.solid.areas[*f as usize].max(f64::MIN_POSITIVE), *f)
+        };
+        let mut keyed: Vec<(f64, u32)> = own.iter().map(weighted).collect();
+        keyed.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let order: Vec<u32> = keyed.into_iter().map(|k| k.1).collect();
+        let small = SMALL * self.segments.group(self.group).area;
         let mut found = Vec::new();
         // What runs into a face is seen better once that one is gone.
         for _ in 0..PASSES {
             let before = found.len();
-            self.pass(&order, &mut found);
-            if found.len() == before {
+            self.pass(&order, small, &mut found);
+            if found[before..].iter().all(|f| f.area < small) {
                 break;
             }
         }
@@ -159,7 +166,7 @@ impl<'a> Growth<'a> {
         found
     }
 
-    fn pass(&mut self, order: &[u32], found: &mut Vec<Face>) {
+    fn pass(&mut self, order: &[u32], small: f64, found: &mut Vec<Face>) {
         let mut tried = vec![false; order.len()];
         let mut failures = 0;
         for &seed in order {
@@ -167,8 +174,13 @@ impl<'a> Growth<'a> {
                 continue;
             }
             if let Some((shape, grown)) = self.largest(seed) {
-                failures = 0;
-                found.push(self.take(shape, grown));
+                let face = self.take(shape, grown);
+                // Any bit of a freeform face is nearly round, if only small enough.
+                failures = if face.area < small { failures + 1 } else { 0 };
+                found.push(face);
+                if failures > FAILURES {
+                    break;
+                }
                 continue;
             }
             failures += 1;

@@ -87,7 +87,7 @@ impl Twins {
 
     /// Whether a face and what is seen from its middle are twins beyond doubt: their neighbours are so too.
     fn first(&self, solid: &Solid, walls: &Walls, f: u32) -> Option<Twin> {
-        let seen = walls.first(solid, solid.centroid(f), -solid.normals[f as usize])?;
+        let seen = walls.behind(solid, f)?;
         let [a, b, c] = solid.mesh.corners(f);
         let shortest = a.distance(b).min(b.distance(c)).min(c.distance(a));
         let candidate = (0..3).map(|first| (seen.face, first)).find(|twin| {

@@ -65,6 +65,8 @@ pub(super) struct Pair {
 pub(super) struct Walls {
     caster: RayCaster,
     casts: Vec<Cast>,
+    /// Where the casts of every face begin, and at the end how many there are.
+    starts: Vec<u32>,
     /// Walls are thinner than this, in mm.
     pub(super) max_thickness: f64,
     max_draft: f64,
@@ -97,6 +99,7 @@ impl Walls {
         let mut walls = Self {
             caster: RayCaster::new(&solid.mesh),
             casts: Vec::new(),
+            starts: Vec::new(),
             max_thickness: f64::INFINITY,
             max_draft: options.max_draft,
             pairs: Vec::new(),
@@ -106,6 +109,11 @@ impl Walls {
         let cell = solid.areas.iter().sum::<f64>() / SAMPLES;
         let casts: Vec<Vec<Cast>> =
             (0..solid.len()).into_par_iter().map(|f| walls.casts(solid, f, cell)).collect();
+        let count = |sum: &mut u32, casts: &Vec<Cast>| {
+            *sum += casts.len() as u32;
+            Some(*sum)
+        };
+        walls.starts = std::iter::once(0).chain(casts.iter().scan(0, count)).collect();
         walls.casts = casts.into_iter().flatten().collect();
         walls.pair(solid, segments, options);
         walls
@@ -178,6 +186,16 @@ impl Walls {
             .then_some(Opposite { face: hit.face, distance: hit.distance })
     }
 
+    /// The first thing met through the material from the middle of a face.
+    pub(super) fn behind(&self, solid: &Solid, f: u32) -> Option<Opposite> {
+        let own = self.starts[f as usize] as usize..self.starts[f as usize + 1] as usize;
+        match &self.casts[own] {
+            // A face that was looked through once was so from its middle.
+            [cast] => cast.hit.filter(|hit| hit.distance <= self.max_thickness),
+            _ => self.first(solid, solid.centroid(f), -solid.normals[f as usize]),
+        }
+    }
+
     /// Whether a face that is seen from another one through the material faces it.
     fn faces_back(&self, solid: &Solid, segments: &Segments, f: u32, seen: u32) -> bool {
         let planes = [f, seen].map(|f| segments.group(segments.of(f)).plane);
@@ -213,9 +231,8 @@ impl Walls {
                 if !curved(f) {
                     return false;
                 }
-                let Some(opposite) = self.opposite(solid, segments, f, solid.centroid(f)) else {
-                    return true;
-                };
+                let opposite = self.behind(solid, f).filter(|o| self.faces_back(solid, segments, f, o.face));
+                let Some(opposite) = opposite else { return true };
                 let lean = solid.normals[f as usize].dot(-solid.normals[opposite.face as usize]);
                 let allowed = fold(f).max(fold(opposite.face)) + FLARE;
                 lean < allowed.cos()
