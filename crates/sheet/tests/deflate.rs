@@ -251,6 +251,39 @@ fn round_walls_follow_their_tessellation() {
     }
 }
 
+#[test]
+fn facets_that_were_divided_where_they_lie_stay_facets() {
+    let whole = revolved(&[[19., 0.], [21., 0.], [21., 50.], [19., 50.]], 24, true);
+    let divided = divided(&divided(&whole));
+    assert_eq!(divided.faces.len(), 16 * whole.faces.len());
+    let tube = deflated(&divided);
+    has_topology(&tube, [1, 0, 2, 1]);
+    near(tube.report.area, deflated(&whole).report.area, 1e-3);
+    // A plate folded twice by 30° is three planes nevertheless.
+    let fold = [[0., 0.], [40., 0.], [74.641, 20.], [114.641, 20.]];
+    let up = [[114.641, 22.], [74.105, 22.], [39.464, 2.], [0., 2.]];
+    let plate = deflated(&divided_prism(&fold, &up));
+    assert_eq!((plate.report.pairs, plate.report.self_intersections), (3, 0));
+}
+
+fn divided_prism(below: &[[f64; 2]], above: &[[f64; 2]]) -> TriMesh {
+    divided(&divided(&prism(&[below, above].concat(), 60.0, 3)))
+}
+
+/// Every face in four.
+fn divided(mesh: &TriMesh) -> TriMesh {
+    let adjacency = Adjacency::new(mesh);
+    let mut fine = TriMesh::new(mesh.positions.clone(), Vec::new());
+    let first = fine.positions.len() as u32;
+    let middle = |[a, b]: &[u32; 2]| mesh.positions[*a as usize].midpoint(mesh.positions[*b as usize]);
+    fine.positions.extend(adjacency.edges().iter().map(middle));
+    for (f, [a, b, c]) in (0..).zip(&mesh.faces) {
+        let [p, q, r] = [0, 1, 2].map(|k| first + adjacency.edge_of(3 * f + k).unwrap());
+        fine.faces.extend([[*a, p, r], [p, *b, q], [r, q, *c], [p, q, r]]);
+    }
+    fine
+}
+
 /// A dome of mid radius 30 on a pipe of mid radius 30, rounded into a rim with radius 6, 2 thick, in `n` chords a right angle.
 fn bell(n: i32) -> Vec<[f64; 2]> {
     let arc = |centre: [f64; 2], r: f64, from: f64, to: f64, k: i32| {

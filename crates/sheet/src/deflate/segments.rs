@@ -17,6 +17,8 @@ const COPLANAR: f64 = 1e-6;
 const COPLANAR_TURN: f64 = 2e-3;
 /// A plane face is this many times wider than the facets of the curved faces that it runs into.
 const WIDER: f64 = 3.0;
+/// So many plane pieces that run into each other are facets of a curved face.
+const CHAIN: usize = 6;
 /// So many regions are looked at between two facets.
 const MOST_BETWEEN: usize = 64;
 /// Below this fold, in radians, edges of a plane face say nothing: the surface may just be finely meshed.
@@ -202,6 +204,7 @@ impl Regions {
         let whole_stars = self.regions_with_whole_stars(solid);
         let mut is_plane: Vec<bool> =
             (0..self.faces.len()).map(|r| self.looks_plane(r as u32, &widths, whole_stars[r])).collect();
+        self.settle_chains(&mut is_plane, &widths);
         self.settle_bends(&mut is_plane);
         is_plane
     }
@@ -232,12 +235,43 @@ impl Regions {
             return true;
         }
         let fold = beside.iter().map(|b| b.length * b.fold).sum::<f64>() / smooth;
-        let gentle: f64 = beside
-            .iter()
-            .filter(|b| self.leads_to_a_wide_one(region, b.other, widths))
-            .map(|b| b.length)
-            .sum();
-        fold > SLIGHT_FOLD && (whole_star || gentle < 0.5 * smooth)
+        fold > SLIGHT_FOLD && (whole_star || !self.goes_on(region, widths))
+    }
+
+    /// Whether behind most of its smooth edges there are regions about as wide.
+    fn goes_on(&self, region: u32, widths: &[f64]) -> bool {
+        let wide = |b: &&Beside| self.leads_to_a_wide_one(region, b.other, widths);
+        let length = |all: &mut dyn Iterator<Item = &Beside>| all.map(|b| b.length).sum::<f64>();
+        let beside = self.beside(region);
+        length(&mut beside.iter().filter(wide)) >= 0.5 * length(&mut beside.iter())
+    }
+
+    /// Facets of a curved face that were divided where they lie, as remeshing does, look plane one by one. Many in a row are no
+    /// folded plate.
+    fn settle_chains(&self, is_plane: &mut [bool], widths: &[f64]) {
+        let is_link: Vec<bool> = (0..self.faces.len() as u32)
+            .map(|r| is_plane[r as usize] && !self.beside(r).is_empty() && self.goes_on(r, widths))
+            .collect();
+        let mut seen = vec![false; is_link.len()];
+        for first in 0..is_link.len() as u32 {
+            if !is_link[first as usize] || seen[first as usize] {
+                continue;
+            }
+            let (mut chain, mut at) = (vec![first], 0);
+            seen[first as usize] = true;
+            while at < chain.len() {
+                for b in self.beside(chain[at]) {
+                    if is_link[b.other as usize] && !seen[b.other as usize] {
+                        seen[b.other as usize] = true;
+                        chain.push(b.other);
+                    }
+                }
+                at += 1;
+            }
+            if chain.len() >= CHAIN {
+                chain.iter().for_each(|r| is_plane[*r as usize] = false);
+            }
+        }
     }
 
     /// Whether over narrow regions, from one behind an edge of `region` on, a wide one is reached that is not much turned.
