@@ -10,9 +10,10 @@ use crate::layout::Layout;
 use crate::preferences::Theme;
 use crate::prompts::Next;
 use crate::selection::Mode;
-use crate::tools::{Drawing, Event, Tool};
+use crate::tools::{Drawing, Tool};
 use crate::units::LengthUnit;
 use crate::view::scene::{Colouring, Section};
+use crate::workspace::Workspace;
 
 /// Where an action stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,17 +37,7 @@ impl Menu {
     ];
 }
 
-/// What the window is for at the moment.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Workspace {
-    /// Body, template, garment, pattern.
-    #[default]
-    Garment,
-    /// The drawing in the plane.
-    Drawing,
-}
-
-/// The switch between them.
+/// The switch between workspaces.
 pub(crate) const DRAWING_BOARD: &str = "Drawing board";
 
 /// Something that can be done.
@@ -499,51 +490,6 @@ impl Designer {
             }));
         }
         all
-    }
-
-    pub(crate) fn switch_workspace(&mut self) {
-        self.settle();
-        self.notices.forget_problems();
-        self.workspace = match self.workspace {
-            Workspace::Garment => Workspace::Drawing,
-            Workspace::Drawing => Workspace::Garment,
-        };
-        self.follow_drawing();
-    }
-
-    fn confirm(&mut self) {
-        match self.workspace {
-            Workspace::Garment => self.tool_event(Event::Confirm),
-            Workspace::Drawing => self.board_event(pen::Event::Confirm),
-        }
-    }
-
-    fn cancel(&mut self) {
-        match self.workspace {
-            Workspace::Garment => self.tool_event(Event::Cancel),
-            Workspace::Drawing => self.board_event(pen::Event::Cancel),
-        }
-    }
-
-    fn delete_selected(&mut self) {
-        match self.workspace {
-            Workspace::Garment => self.delete(),
-            Workspace::Drawing => self.delete_parts(),
-        }
-    }
-
-    fn select_everything(&mut self) {
-        match self.workspace {
-            Workspace::Garment => self.select_all(),
-            Workspace::Drawing => self.select_parts(),
-        }
-    }
-
-    fn show_everything(&mut self) {
-        match self.workspace {
-            Workspace::Garment => self.frame_all(),
-            Workspace::Drawing => self.show_drawing(),
-        }
     }
 
     /// Runs the action of this text.

@@ -10,7 +10,7 @@ use design::regenerate::Regenerated;
 use eframe::egui;
 use eframe::glow;
 
-use crate::actions::{Workspace, remedy};
+use crate::actions::remedy;
 use crate::board::Board;
 use crate::browsing::{Browsing, FileDialog, system_dialog};
 use crate::jobs::{Body, Builder, Cloth, FileJob};
@@ -27,6 +27,7 @@ use crate::tools::{Drawing, Effect, Event, Machine, Tool, World};
 use crate::view::pick::Picker;
 use crate::view::scene::{Look, Section};
 use crate::view::{GlPainter, View};
+use crate::workspace::Workspace;
 
 /// What a window begins with.
 #[derive(Debug)]

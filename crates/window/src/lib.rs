@@ -34,6 +34,7 @@ mod tools;
 mod units;
 mod view;
 mod workshop;
+mod workspace;
 
 pub use browsing::{FileDialog, FileWish, PathKind};
 pub use designer::{Designer, Start};

@@ -8,12 +8,13 @@ pub(crate) use outline::section;
 
 use eframe::egui::{self, Key};
 
-use crate::actions::{Action, DRAWING_BOARD, Menu, Workspace};
+use crate::actions::{Action, DRAWING_BOARD, Menu};
 use crate::board;
 use crate::designer::Designer;
 use crate::layout::{INSPECTOR, OUTLINE, PATTERN};
 use crate::selection::Mode;
 use crate::tools::Tool;
+use crate::workspace::Workspace;
 
 impl Designer {
     pub(crate) fn panels(&mut self, ui: &mut egui::Ui) {
