@@ -6,6 +6,8 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
+use glam::DVec3;
+
 use super::segments::Segments;
 use super::solid::Solid;
 use super::star::Star;
@@ -24,6 +26,10 @@ pub(super) struct Belongs {
 const AS_NEAR: f64 = 1.2;
 /// A blend that reaches from a wall to its partner over less than this many thicknesses is the wall's end.
 const END_WIDTH: f64 = 2.5;
+/// Walls that are blended are no farther apart than this many of the largest thickness.
+const REACH: f64 = 6.0;
+/// Strips narrower than this share of it blend nothing: they are left where a mesh was cut.
+const BURR: f64 = 0.1;
 /// A chamfer folds from its walls by less than this, in radians.
 const OBLIQUE: f64 = 70.0 / 180.0 * std::f64::consts::PI;
 /// One side of a strip is at least this share of its outline.
@@ -91,8 +97,8 @@ impl Blends {
         star: &Star,
         together: &[u32],
     ) {
-        // Nodes on the blend's border, by the group beyond.
-        let mut borders: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+        // Edges of the blend's border, by the group beyond, both ways.
+        let mut borders: BTreeMap<u32, BTreeMap<u32, Vec<u32>>> = BTreeMap::new();
         let mut links: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         for f in together.iter().flat_map(|g| segments.group(*g).faces.iter().copied()) {
             for h in 3 * f..3 * f + 3 {
@@ -101,16 +107,28 @@ impl Blends {
                 links.entry(b).or_default().push(a);
                 let other = segments.of(solid.across(h));
                 if !self.is_blend[other as usize] {
-                    borders.entry(other).or_default().extend([a, b]);
+                    let border = borders.entry(other).or_default();
+                    border.entry(a).or_default().push(b);
+                    border.entry(b).or_default().push(a);
                 }
             }
         }
         let mut found: BTreeMap<u32, Vec<(f64, Belongs)>> = BTreeMap::new();
-        for (&group, nodes) in &borders {
-            for (node, (_, at)) in nearest(solid, &links, nodes) {
-                // Along the edges tells which one; how far it is, the straight line.
-                let distance =
-                    solid.mesh.positions[node as usize].distance(solid.mesh.positions[at as usize]);
+        let position = |v: u32| solid.mesh.positions[v as usize];
+        let outline: f64 = borders
+            .values()
+            .flat_map(|border| border.iter().flat_map(|(a, ends)| ends.iter().map(move |b| (*a, *b))))
+            .map(|(a, b)| position(a).distance(position(b)) / 2.0)
+            .sum();
+        let area: f64 = together.iter().map(|g| segments.group(*g).area).sum();
+        let is_burr = 2.0 * area < BURR * walls.max_thickness * outline;
+        for (&group, border) in &borders {
+            for (node, (_, at)) in nearest(solid, &links, border.keys().copied()) {
+                // Along the edges tells which one; how far it is, the straight line to the border there.
+                let ends = border.get(&at).map_or(&[][..], Vec::as_slice);
+                let distances =
+                    ends.iter().map(|end| to_segment(position(node), position(at), position(*end)));
+                let distance = distances.fold(f64::INFINITY, f64::min);
                 found.entry(node).or_default().push((distance, Belongs { group, at }));
             }
         }
@@ -132,10 +150,15 @@ impl Blends {
                     .partners(b.group)
                     .iter()
                     .any(|p| own.iter().any(|o| o.group != p.partner && self.touch(o.group, p.partner)));
-                !is_own && apart && !under && mine.iter().all(|n| n.dot(facing(b)).abs() < PARALLEL)
+                !is_own
+                    && (apart || is_burr)
+                    && !under
+                    && mine.iter().all(|n| n.dot(facing(b)).abs() < PARALLEL)
             };
             let others: Vec<&(f64, Belongs)> = reached.iter().filter(|r| meets(&r.1)).collect();
-            let wall = others.iter().find(|r| walls.is_wall[r.1.group as usize]);
+            let reach = if is_burr { BURR } else { REACH } * walls.max_thickness;
+            let near = |r: &&&(f64, Belongs)| r.0 < reach;
+            let wall = others.iter().filter(near).find(|r| walls.is_wall[r.1.group as usize]);
             let within = wall.map_or(f64::INFINITY, |w| AS_NEAR * w.0);
             // Between a wall and its partner, and nearer than anything else, is the end of both.
             let is_end = |r: &(f64, Belongs)| {
@@ -219,18 +242,29 @@ fn is_chamfer(solid: &Solid, segments: &Segments, walls: &Walls, g: u32) -> bool
 }
 
 /// The mean normal of the faces of a group about a node of it.
-fn group_normal_at(solid: &Solid, segments: &Segments, star: &Star, b: &Belongs) -> glam::DVec3 {
+fn group_normal_at(solid: &Solid, segments: &Segments, star: &Star, b: &Belongs) -> DVec3 {
     if let Some(plane) = segments.group(b.group).plane {
         return plane.normal;
     }
     let about = star.of(b.at).iter().map(|c| c / 3).filter(|f| segments.of(*f) == b.group);
-    about.map(|f| solid.normals[f as usize]).sum::<glam::DVec3>().normalize_or_zero()
+    about.map(|f| solid.normals[f as usize]).sum::<DVec3>().normalize_or_zero()
+}
+
+/// How far a point is from a line between two, in mm.
+fn to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
+    let (ap, ab) = (p - a, b - a);
+    let along = ap.dot(ab) / ab.length_squared().max(f64::MIN_POSITIVE);
+    ap.distance(ab * along.clamp(0.0, 1.0))
 }
 
 /// For every node, the nearest of some nodes along the edges, and how far it is.
-fn nearest(solid: &Solid, links: &BTreeMap<u32, Vec<u32>>, from: &[u32]) -> BTreeMap<u32, (f64, u32)> {
+fn nearest(
+    solid: &Solid,
+    links: &BTreeMap<u32, Vec<u32>>,
+    from: impl Iterator<Item = u32>,
+) -> BTreeMap<u32, (f64, u32)> {
     let mut found: BTreeMap<u32, (f64, u32)> = BTreeMap::new();
-    let mut queue: BinaryHeap<Reached> = from.iter().map(|&v| Reverse((0, v, v))).collect();
+    let mut queue: BinaryHeap<Reached> = from.map(|v| Reverse((0, v, v))).collect();
     while let Some(Reverse((bits, node, at))) = queue.pop() {
         let distance = f64::from_bits(bits);
         if found.contains_key(&node) {

@@ -218,12 +218,13 @@ impl Follow<'_> {
         let ends = [diagonal.old, diagonal.new].map(|ends| ends.map(|v| diagonal.positions[v as usize]));
         let [[a, b], [c, d]] = ends;
         let normal = (b - a).cross(d - c).normalize_or_zero();
+        // What leaves the wall is not seen between its sides.
         let off = |[p, q]: [DVec3; 2]| {
-            let seen = between(self.solid, self.segments, self.walls, p.midpoint(q), normal)?;
-            Some(seen.off.length() / seen.thickness)
+            let seen = between(self.solid, self.segments, self.walls, p.midpoint(q), normal);
+            seen.map_or(f64::INFINITY, |seen| seen.off.length() / seen.thickness)
         };
-        let is_right = |ends| off(ends).is_none_or(|off| off < RIGHT);
-        is_right([c, d]) || !is_right([a, b])
+        let new = off([c, d]);
+        new < RIGHT || new <= off([a, b])
     }
 
     /// Closes edges shorter than is said for faces of the solid.
