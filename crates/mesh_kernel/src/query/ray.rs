@@ -43,7 +43,7 @@ impl RayCaster {
         Self::with_bvh(self.bvh.refit(mesh), mesh)
     }
 
-    fn with_bvh(bvh: Bvh, mesh: &TriMesh) -> Self {
+    pub(super) fn with_bvh(bvh: Bvh, mesh: &TriMesh) -> Self {
         let corners = |f: &u32| if *f == VACANT { [DVec3::ZERO; 3] } else { mesh.corners(*f) };
         let triangles = bvh.order.iter().map(corners).map(|[a, b, c]| [a, b - a, c - a]).collect();
         Self { bvh, triangles }

@@ -6,18 +6,13 @@
 use faer::{Mat, Side};
 use glam::DVec3;
 
+use super::descent::refined;
 use super::shape::Shape;
 
 /// Radii larger than this many times the extent of what is fitted are flat.
 const FLAT: f64 = 30.0;
 /// Cones are steeper than this and less steep than a right angle less this, in radians.
 const STEEP: f64 = 0.02;
-/// Steps of the least squares, and the share of the extent that derivatives are taken over.
-const STEPS: usize = 24;
-const DIFFERENCE: f64 = 1e-6;
-/// After so many steps a mean error of this many times the wanted one is not worth more of them.
-const FIRST_STEPS: usize = 5;
-const HOPELESS: f64 = 8.0;
 /// Eigenvalues smaller than this share of the largest are directions in which the shape moves within itself.
 const IDLE: f64 = 1e-11;
 
@@ -44,18 +39,20 @@ impl Cloud {
             facets: self.facets.iter().map(|(p, n, a)| ((*p - centre) / scale, *n, *a)).collect(),
         };
         let guesses = [unit.cylinder(), unit.cone(), unit.sphere(), unit.torus()];
-        let shapes =
-            guesses.into_iter().flatten().map(|guess| unit.refined(guess, wanted / scale)).filter(is_round);
+        let shapes = guesses
+            .into_iter()
+            .flatten()
+            .map(|guess| refined(guess, &unit.nodes, wanted / scale))
+            .filter(is_round);
         shapes.map(|s| self.with_error(placed(s, centre, scale))).collect()
     }
 
     /// The same kind of shape, fitted from another.
     pub(super) fn refit(&self, shape: Shape, wanted: f64) -> Option<Fitted> {
         let (centre, scale) = self.frame()?;
-        let unit =
-            Self { nodes: self.nodes.iter().map(|p| (*p - centre) / scale).collect(), ..Self::default() };
+        let nodes: Vec<DVec3> = self.nodes.iter().map(|p| (*p - centre) / scale).collect();
         let guess = placed(shape, -centre / scale, 1.0 / scale);
-        let fitted = Some(unit.refined(guess, wanted / scale)).filter(is_round)?;
+        let fitted = Some(refined(guess, &nodes, wanted / scale)).filter(is_round)?;
         Some(self.with_error(placed(fitted, centre, scale)))
     }
 
@@ -146,90 +143,6 @@ impl Cloud {
         let s = linear(rows)?;
         let minor = (s[2] + s[0] * s[0] + s[1] * s[1]).max(0.0).sqrt();
         Some(Shape::Torus { centre: on_axis + axis * s[1], axis, major: s[0], minor })
-    }
-
-    /// Levenberg and Marquardt's steps from a guess.
-    fn refined(&self, guess: Shape, wanted: f64) -> Shape {
-        let mut at = numbers(guess);
-        let error = |x: &[f64]| -> Vec<f64> {
-            let shape = shape_of(guess, x);
-            self.nodes.iter().map(|p| shape.distance(*p)).collect()
-        };
-        let square = |r: &[f64]| r.iter().map(|x| x * x).sum::<f64>();
-        let mut residual = error(&at);
-        let mut damping = 1e-3;
-        let hopeless = (HOPELESS * wanted).powi(2) * self.nodes.len() as f64;
-        for step in 0..STEPS {
-            if step >= FIRST_STEPS && square(&residual) > hopeless {
-                break;
-            }
-            let columns: Vec<Vec<f64>> = (0..at.len())
-                .map(|k| {
-                    let mut moved = at.clone();
-                    moved[k] += DIFFERENCE;
-                    let there = error(&moved);
-                    there.iter().zip(&residual).map(|(a, b)| (a - b) / DIFFERENCE).collect()
-                })
-                .collect();
-            let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-            let Some((values, vectors)) = eigen(at.len(), |i, j| dot(&columns[i], &columns[j])) else {
-                break;
-            };
-            let slope: Vec<f64> = columns.iter().map(|c| dot(c, &residual)).collect();
-            let largest = values.iter().copied().fold(0.0, f64::max);
-            let mut next = at.clone();
-            for (value, vector) in values.iter().zip(&vectors).filter(|(v, _)| **v > IDLE * largest) {
-                let step = dot(vector, &slope) / (value + damping * largest * 1e-3);
-                next.iter_mut().zip(vector).for_each(|(x, v)| *x -= step * v);
-            }
-            let there = error(&next);
-            let (before, after) = (square(&residual), square(&there));
-            if after < before {
-                (at, residual, damping) = (next, there, damping / 10.0);
-                if before - after < 1e-14 * before {
-                    break;
-                }
-            } else {
-                damping *= 10.0;
-                if damping > 1e6 {
-                    break;
-                }
-            }
-        }
-        shape_of(guess, &at)
-    }
-}
-
-fn numbers(shape: Shape) -> Vec<f64> {
-    let six = |p: DVec3, a: DVec3| vec![p.x, p.y, p.z, a.x, a.y, a.z];
-    match shape {
-        Shape::Plane { normal, offset } => vec![normal.x, normal.y, normal.z, offset],
-        Shape::Cylinder { point, axis, radius } => [six(point, axis), vec![radius]].concat(),
-        Shape::Cone { apex, axis, half_angle } => [six(apex, axis), vec![half_angle]].concat(),
-        Shape::Sphere { centre, radius } => vec![centre.x, centre.y, centre.z, radius],
-        Shape::Torus { centre, axis, major, minor } => [six(centre, axis), vec![major, minor]].concat(),
-        Shape::Freeform => Vec::new(),
-    }
-}
-
-/// The shape of some numbers, of the same kind as another.
-fn shape_of(kind: Shape, x: &[f64]) -> Shape {
-    let vector = |k: usize| DVec3::new(x[k], x[k + 1], x[k + 2]);
-    match kind {
-        Shape::Plane { .. } => Shape::Plane { normal: vector(0).normalize_or_zero(), offset: x[3] },
-        Shape::Cylinder { .. } => {
-            // Of all points of the axis, the one beside the middle of what is fitted.
-            let axis = vector(3).normalize_or_zero();
-            Shape::Cylinder { point: vector(0) - axis * axis.dot(vector(0)), axis, radius: x[6] }
-        }
-        Shape::Cone { .. } => {
-            Shape::Cone { apex: vector(0), axis: vector(3).normalize_or_zero(), half_angle: x[6] }
-        }
-        Shape::Sphere { .. } => Shape::Sphere { centre: vector(0), radius: x[3] },
-        Shape::Torus { .. } => {
-            Shape::Torus { centre: vector(0), axis: vector(3).normalize_or_zero(), major: x[6], minor: x[7] }
-        }
-        Shape::Freeform => Shape::Freeform,
     }
 }
 

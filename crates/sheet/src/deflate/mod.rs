@@ -2,6 +2,7 @@
 
 mod assemble;
 mod blends;
+mod descent;
 mod error;
 mod exact;
 mod faces;
