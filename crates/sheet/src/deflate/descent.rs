@@ -9,6 +9,8 @@ const STEPS: usize = 24;
 /// After so many steps a mean error of this many times the wanted one is not worth more of them.
 const FIRST_STEPS: usize = 5;
 const HOPELESS: f64 = 8.0;
+/// And a step that gains less than this share is the last where the mean error is larger than the wanted one.
+const SLOW: f64 = 1e-2;
 /// Where the matrix is less than this share of its largest entry, the shape moves within itself, and stays.
 const IDLE: f64 = 1e-11;
 /// A step that gains less than this share is the last.
@@ -24,9 +26,9 @@ pub(super) fn refined(guess: Shape, nodes: &[DVec3], wanted: f64) -> Shape {
     let mut at = guess;
     let mut misfit = Misfit::new(&at, nodes);
     let mut damping = 1e-3;
-    let hopeless = (HOPELESS * wanted).powi(2) * nodes.len() as f64;
+    let enough = wanted * wanted * nodes.len() as f64;
     for step in 0..STEPS {
-        if step >= FIRST_STEPS && misfit.square > hopeless {
+        if step >= FIRST_STEPS && misfit.square > HOPELESS * HOPELESS * enough {
             break;
         }
         let Some(by) = misfit.step(damping) else { break };
@@ -35,7 +37,7 @@ pub(super) fn refined(guess: Shape, nodes: &[DVec3], wanted: f64) -> Shape {
         let there = Misfit::new(&next, nodes);
         if there.square < misfit.square {
             let gain = misfit.square - there.square;
-            let last = gain < GAIN * misfit.square;
+            let last = gain < misfit.square * if misfit.square > enough { SLOW } else { GAIN };
             (at, misfit, damping) = (next, there, damping / 10.0);
             if last {
                 break;

@@ -31,8 +31,6 @@ const PASSES: usize = 4;
 const MOSTLY: f64 = 0.9;
 const PIECE: f64 = 1e-2;
 const LEAST: f64 = 0.5;
-/// So many facets are tried at once, at most.
-const AHEAD: usize = 16;
 /// Nodes that a shape is fitted to, at most.
 const FITTED: usize = 240;
 /// A facet leans by no more than this, in radians, from the shape at its middle.
@@ -109,26 +107,15 @@ struct Growth<'a> {
     places: &'a [u32],
     /// Facets by their place: whether they have a face.
     taken: Vec<bool>,
-}
-
-/// Who walks over free facets.
-#[derive(Clone)]
-struct Walker {
-    /// Facets by their place: the last walk that came by.
+    /// And the last walk that came by.
     seen: Vec<u32>,
     walk: u32,
-    /// The last walk before the facet that is tried.
-    before: u32,
 }
 
 impl<'a> Growth<'a> {
     fn new(solid: &'a Solid, segments: &'a Segments, group: u32, places: &'a [u32]) -> Self {
         let n = segments.group(group).faces.len();
-        Self { solid, segments, group, places, taken: vec![false; n] }
-    }
-
-    fn walker(&self) -> Walker {
-        Walker { seen: vec![0; self.taken.len()], walk: 0, before: 0 }
+        Self { solid, segments, group, places, taken: vec![false; n], seen: vec![0; n], walk: 0 }
     }
 
     fn place(&self, f: u32) -> usize {
@@ -159,11 +146,10 @@ impl<'a> Growth<'a> {
         let order: Vec<u32> = keyed.into_iter().map(|k| k.1).collect();
         let small = SMALL * self.segments.group(self.group).area;
         let mut found = Vec::new();
-        let mut walkers = vec![self.walker()];
         // What runs into a face is seen better once that one is gone.
         for _ in 0..PASSES {
             let before = found.len();
-            self.pass(&order, small, &mut walkers, &mut found);
+            self.pass(&order, small, &mut found);
             if found[before..].iter().all(|f| f.area < small) {
                 break;
             }
@@ -171,7 +157,7 @@ impl<'a> Growth<'a> {
         // What has no shape is freeform, as it hangs together.
         for seed in self.segments.group(self.group).faces.clone() {
             if self.is_free(seed) {
-                let part = self.around(&mut walkers[0], seed, usize::MAX);
+                let part = self.around(seed, usize::MAX);
                 found.push(self.take(Shape::Freeform, part));
             }
         }
@@ -187,78 +173,54 @@ impl<'a> Growth<'a> {
         found
     }
 
-    /// Facets are tried one after the other. What some of the next ones come to is found ahead, on all threads, and holds unless a
-    /// face that was found meanwhile took facets away that it walked over.
-    fn pass(&mut self, order: &[u32], small: f64, walkers: &mut Vec<Walker>, found: &mut Vec<Face>) {
+    fn pass(&mut self, order: &[u32], small: f64, found: &mut Vec<Face>) {
         let mut tried = vec![false; order.len()];
         let mut failures = 0;
-        let mut order = order.iter().copied();
-        let mut ahead = 1;
-        loop {
-            let is_open = |f: &u32| !tried[self.place(*f)] && self.is_free(*f);
-            let seeds: Vec<u32> = order.by_ref().filter(is_open).take(ahead).collect();
-            if seeds.is_empty() {
-                return;
+        for &seed in order {
+            if tried[self.place(seed)] || !self.is_free(seed) {
+                continue;
             }
-            while walkers.len() < seeds.len() {
-                walkers.push(self.walker());
-            }
-            let all = seeds.par_iter().zip(walkers.par_iter_mut());
-            let results: Vec<_> = all.map(|(seed, walker)| self.largest(walker, *seed)).collect();
-            let (mut gone, mut all_hold): (Vec<u32>, bool) = (Vec::new(), true);
-            for ((seed, mut result), walker) in seeds.into_iter().zip(results).zip(walkers.iter_mut()) {
-                if tried[self.place(seed)] || !self.is_free(seed) {
-                    all_hold = false;
-                    continue;
-                }
-                if gone.iter().any(|f| walker.seen[self.place(*f)] > walker.before) {
-                    all_hold = false;
-                    result = self.largest(walker, seed);
-                }
-                if let Some((shape, grown)) = result {
-                    gone.extend(&grown);
-                    let face = self.take(shape, grown);
-                    // Any bit of a freeform face is nearly round, if only small enough.
-                    failures = if face.area < small { failures + 1 } else { 0 };
-                    found.push(face);
-                } else {
-                    failures += 1;
-                    for f in self.around(walker, seed, SURROUNDINGS[2]) {
-                        tried[self.place(f)] = true;
-                    }
-                }
+            if let Some((shape, grown)) = self.largest(seed) {
+                let face = self.take(shape, grown);
+                // Any bit of a freeform face is nearly round, if only small enough.
+                failures = if face.area < small { failures + 1 } else { 0 };
+                found.push(face);
                 if failures > FAILURES {
-                    return;
+                    break;
                 }
+                continue;
             }
-            ahead = if all_hold { (2 * ahead).min(AHEAD) } else { 1 };
+            failures += 1;
+            if failures > FAILURES {
+                break;
+            }
+            for f in self.around(seed, SURROUNDINGS[2]) {
+                let place = self.place(f);
+                tried[place] = true;
+            }
         }
     }
 
     /// The shape about a facet that reaches farthest.
-    fn largest(&self, walker: &mut Walker, seed: u32) -> Option<(Shape, Vec<u32>)> {
-        walker.before = walker.walk;
+    fn largest(&mut self, seed: u32) -> Option<(Shape, Vec<u32>)> {
         for count in SURROUNDINGS {
-            let near = self.around(walker, seed, count);
+            let near = self.around(seed, count);
             let cloud = self.cloud(&near);
             let tolerance = self.tolerance(&cloud);
             let mut best: Option<(f64, Shape, Vec<u32>)> = None;
             for (shape, error) in cloud.fits(tolerance) {
-                if error > tolerance || cloud.nodes.len() < least_nodes(&shape) {
+                if error > tolerance {
                     continue;
                 }
-                let (shape, grown) = self.grown(walker, seed, shape, COMPARED);
+                let (shape, grown) = self.grown(seed, shape, COMPARED);
                 let area: f64 = grown.iter().map(|f| self.solid.areas[*f as usize]).sum();
                 if best.as_ref().is_none_or(|b| area > SIMPLER * b.0) {
                     best = Some((area, shape, grown));
                 }
             }
             if let Some((_, shape, grown)) = best {
-                let whole = if grown.len() < COMPARED {
-                    (shape, grown)
-                } else {
-                    self.grown(walker, seed, shape, usize::MAX)
-                };
+                let whole =
+                    if grown.len() < COMPARED { (shape, grown) } else { self.grown(seed, shape, usize::MAX) };
                 return Some(whole);
             }
         }
@@ -266,10 +228,10 @@ impl<'a> Growth<'a> {
     }
 
     /// As far as facets lie on a shape, which is fitted again and again on the way.
-    fn grown(&self, walker: &mut Walker, seed: u32, mut shape: Shape, most: usize) -> (Shape, Vec<u32>) {
-        let near = self.around(walker, seed, SURROUNDINGS[1]);
+    fn grown(&mut self, seed: u32, mut shape: Shape, most: usize) -> (Shape, Vec<u32>) {
+        let near = self.around(seed, SURROUNDINGS[1]);
         let tolerance = self.tolerance(&self.cloud(&near));
-        let mut grown = self.reached(walker, seed, &shape, tolerance, most.min(2 * SURROUNDINGS[0]));
+        let mut grown = self.reached(seed, &shape, tolerance, most.min(2 * SURROUNDINGS[0]));
         loop {
             let cloud = self.cloud(&grown);
             let tolerance = self.tolerance(&cloud);
@@ -278,7 +240,7 @@ impl<'a> Growth<'a> {
                 break;
             }
             shape = fitted;
-            let wider = self.reached(walker, seed, &shape, tolerance, most.min(4 * grown.len()));
+            let wider = self.reached(seed, &shape, tolerance, most.min(4 * grown.len()));
             if wider.len() <= grown.len() {
                 break;
             }
@@ -288,35 +250,30 @@ impl<'a> Growth<'a> {
     }
 
     /// The free facets about one, the nearest rings first.
-    fn around(&self, walker: &mut Walker, seed: u32, most: usize) -> Vec<u32> {
-        self.walked(walker, seed, most, |_| true)
+    fn around(&mut self, seed: u32, most: usize) -> Vec<u32> {
+        self.walked(seed, most, |_| true)
     }
 
-    fn reached(
-        &self,
-        walker: &mut Walker,
-        seed: u32,
-        shape: &Shape,
-        tolerance: f64,
-        most: usize,
-    ) -> Vec<u32> {
+    fn reached(&mut self, seed: u32, shape: &Shape, tolerance: f64, most: usize) -> Vec<u32> {
         let solid = self.solid;
-        self.walked(walker, seed, most, |f| {
+        self.walked(seed, most, |f| {
             let near = solid.mesh.corners(f).iter().all(|p| shape.distance(*p).abs() <= tolerance);
             near && shape.outward(solid.centroid(f)).dot(solid.normals[f as usize]).abs() > LEAN.cos()
         })
     }
 
-    fn walked(&self, walker: &mut Walker, seed: u32, most: usize, wanted: impl Fn(u32) -> bool) -> Vec<u32> {
-        walker.walk += 1;
+    fn walked(&mut self, seed: u32, most: usize, wanted: impl Fn(u32) -> bool) -> Vec<u32> {
+        self.walk += 1;
         let mut near = vec![seed];
-        walker.seen[self.place(seed)] = walker.walk;
+        let place = self.place(seed);
+        self.seen[place] = self.walk;
         let mut at = 0;
         while at < near.len() && near.len() < most {
             for h in 3 * near[at]..3 * near[at] + 3 {
                 let other = self.solid.across(h);
-                if self.is_free(other) && walker.seen[self.place(other)] != walker.walk && wanted(other) {
-                    walker.seen[self.place(other)] = walker.walk;
+                if self.is_free(other) && self.seen[self.place(other)] != self.walk && wanted(other) {
+                    let place = self.place(other);
+                    self.seen[place] = self.walk;
                     near.push(other);
                 }
             }
@@ -348,16 +305,5 @@ impl<'a> Growth<'a> {
             (self.solid.centroid(*f), self.solid.normals[*f as usize], self.solid.areas[*f as usize])
         };
         Cloud { nodes, node_normals, facets: some().map(facet).collect() }
-    }
-}
-
-/// Fewer nodes than this are on some shape of its kind anyway.
-fn least_nodes(shape: &Shape) -> usize {
-    match shape {
-        Shape::Plane { .. } | Shape::Freeform => 4,
-        Shape::Sphere { .. } => 7,
-        Shape::Cylinder { .. } => 8,
-        Shape::Cone { .. } => 10,
-        Shape::Torus { .. } => 14,
     }
 }

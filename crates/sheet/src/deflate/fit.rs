@@ -38,12 +38,11 @@ impl Cloud {
             node_normals: self.node_normals.clone(),
             facets: self.facets.iter().map(|(p, n, a)| ((*p - centre) / scale, *n, *a)).collect(),
         };
-        let guesses = [unit.cylinder(), unit.cone(), unit.sphere(), unit.torus()];
-        let shapes = guesses
-            .into_iter()
-            .flatten()
-            .map(|guess| refined(guess, &unit.nodes, wanted / scale))
-            .filter(is_round);
+        // Fewer nodes than this are on some shape of the kind anyway.
+        let kinds: [(usize, fn(&Self) -> Option<Shape>); 4] =
+            [(8, Self::cylinder), (10, Self::cone), (7, Self::sphere), (14, Self::torus)];
+        let guesses = kinds.iter().filter(|k| unit.nodes.len() >= k.0).filter_map(|(_, guess)| guess(&unit));
+        let shapes = guesses.map(|guess| refined(guess, &unit.nodes, wanted / scale)).filter(is_round);
         shapes.map(|s| self.with_error(placed(s, centre, scale))).collect()
     }
 
