@@ -9,8 +9,8 @@ const STEPS: usize = 24;
 /// After so many steps a mean error of this many times the wanted one is not worth more of them.
 const FIRST_STEPS: usize = 5;
 const HOPELESS: f64 = 8.0;
-/// And a step that gains less than this share is the last where the mean error is larger than the wanted one.
-const SLOW: f64 = 1e-2;
+/// Nor is one that promises less than this share, where the mean error is larger than the wanted one.
+const SLOW: f64 = 0.1;
 /// Where the matrix is less than this share of its largest entry, the shape moves within itself, and stays.
 const IDLE: f64 = 1e-11;
 /// A step that gains less than this share is the last.
@@ -32,12 +32,16 @@ pub(super) fn refined(guess: Shape, nodes: &[DVec3], wanted: f64) -> Shape {
             break;
         }
         let Some(by) = misfit.step(damping) else { break };
+        let promised: f64 = by.iter().zip(&misfit.slope).map(|(b, s)| b * s).sum();
+        if misfit.square > enough && promised < SLOW * misfit.square {
+            break;
+        }
         let from = numbers(at);
         let next = shape_of(guess, &std::array::from_fn(|k| from[k] - by[k]));
         let there = Misfit::new(&next, nodes);
         if there.square < misfit.square {
             let gain = misfit.square - there.square;
-            let last = gain < misfit.square * if misfit.square > enough { SLOW } else { GAIN };
+            let last = gain < GAIN * misfit.square;
             (at, misfit, damping) = (next, there, damping / 10.0);
             if last {
                 break;

@@ -3,16 +3,18 @@
 //! Nodes lie on the exact face however coarsely it is meshed; facets are chords. So facets only give first guesses, and the nodes
 //! what comes of them.
 
-use faer::{Mat, Side};
 use glam::DVec3;
 
 use super::descent::refined;
+use super::eigen::eigen;
 use super::shape::Shape;
 
 /// Radii larger than this many times the extent of what is fitted are flat.
 const FLAT: f64 = 30.0;
 /// Cones are steeper than this and less steep than a right angle less this, in radians.
 const STEEP: f64 = 0.02;
+/// Nodes that are within this share of the wanted error of one plane are on no round shape.
+const IN_PLANE: f64 = 0.1;
 /// Eigenvalues smaller than this share of the largest are directions in which the shape moves within itself.
 const IDLE: f64 = 1e-11;
 
@@ -32,7 +34,9 @@ impl Cloud {
     /// The four round shapes that come nearest to the nodes, the simplest first; those that degenerate are left out, and those that
     /// clearly will not come within `wanted` mm.
     pub(super) fn fits(&self, wanted: f64) -> Vec<Fitted> {
-        let Some((centre, scale)) = self.frame() else { return Vec::new() };
+        let Some((centre, scale)) = self.frame().filter(|_| self.sag() > IN_PLANE * wanted) else {
+            return Vec::new();
+        };
         let unit = Self {
             nodes: self.nodes.iter().map(|p| (*p - centre) / scale).collect(),
             node_normals: self.node_normals.clone(),
@@ -58,9 +62,9 @@ impl Cloud {
     /// How far the nodes are from one plane, at most.
     pub(super) fn sag(&self) -> f64 {
         let Some((centre, _)) = self.frame() else { return 0.0 };
-        let values = eigen(3, |i, j| self.nodes.iter().map(|p| (*p - centre)[i] * (*p - centre)[j]).sum());
-        let Some((_, vectors)) = values else { return 0.0 };
-        let normal = DVec3::new(vectors[0][0], vectors[0][1], vectors[0][2]);
+        let spread = eigen::<3>(|i, j| self.nodes.iter().map(|p| (*p - centre)[i] * (*p - centre)[j]).sum());
+        let Some([(_, least), ..]) = spread else { return 0.0 };
+        let normal = DVec3::from_array(least);
         let heights = self.nodes.iter().map(|p| normal.dot(*p - centre));
         let (low, high) = heights.fold((f64::MAX, f64::MIN), |(l, h), x| (l.min(x), h.max(x)));
         high - low
@@ -78,8 +82,8 @@ impl Cloud {
     }
 
     fn cylinder(&self) -> Option<Shape> {
-        let (_, vectors) = eigen(3, |i, j| self.facets.iter().map(|(_, n, a)| n[i] * n[j] * a).sum())?;
-        let axis = DVec3::from_slice(&vectors[0]);
+        let [(_, least), ..] = eigen::<3>(|i, j| self.facets.iter().map(|(_, n, a)| n[i] * n[j] * a).sum())?;
+        let axis = DVec3::from_array(least);
         let (x, y) = axis.any_orthonormal_pair();
         // A circle through what is seen along the axis: |p|² = 2 c · p + k.
         let rows = self
@@ -94,9 +98,9 @@ impl Cloud {
     fn cone(&self) -> Option<Shape> {
         let area: f64 = self.facets.iter().map(|f| f.2).sum();
         let mean = self.facets.iter().map(|(_, n, a)| *n * *a).sum::<DVec3>() / area;
-        let spread =
-            eigen(3, |i, j| self.facets.iter().map(|(_, n, a)| (*n - mean)[i] * (*n - mean)[j] * a).sum())?;
-        let axis = DVec3::from_slice(&spread.1[0]);
+        let [(_, least), ..] =
+            eigen::<3>(|i, j| self.facets.iter().map(|(_, n, a)| (*n - mean)[i] * (*n - mean)[j] * a).sum())?;
+        let axis = DVec3::from_array(least);
         // All tangent planes go through the tip.
         let rows = self.facets.iter().map(|(p, n, a)| ([n.x * a, n.y * a, n.z * a], n.dot(*p) * a));
         let apex = DVec3::from_array(linear(rows)?);
@@ -124,8 +128,8 @@ impl Cloud {
                 [n.x, n.y, n.z, m.x, m.y, m.z]
             })
             .collect();
-        let (_, vectors) = eigen(6, |i, j| lines.iter().map(|l| l[i] * l[j]).sum())?;
-        let (moment, direction) = (DVec3::from_slice(&vectors[0][..3]), DVec3::from_slice(&vectors[0][3..]));
+        let [(_, least), ..] = eigen::<6>(|i, j| lines.iter().map(|l| l[i] * l[j]).sum())?;
+        let (moment, direction) = (DVec3::from_slice(&least[..3]), DVec3::from_slice(&least[3..]));
         let square = direction.length_squared();
         if square < 1e-6 {
             return None;
@@ -176,16 +180,6 @@ fn is_round(shape: &Shape) -> bool {
     }
 }
 
-/// Eigenvalues of a symmetric matrix, ascending, and its eigenvectors.
-fn eigen(n: usize, entry: impl Fn(usize, usize) -> f64) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
-    let matrix = Mat::from_fn(n, n, entry);
-    let all_finite = (0..n).all(|i| (0..n).all(|j| matrix[(i, j)].is_finite()));
-    let found = matrix.self_adjoint_eigen(Side::Lower).ok().filter(|_| all_finite)?;
-    let values = (0..n).map(|k| found.S().column_vector()[k]).collect();
-    let vectors = (0..n).map(|k| (0..n).map(|i| found.U()[(i, k)]).collect()).collect();
-    Some((values, vectors))
-}
-
 /// The least squares solution of linear equations.
 fn linear<const N: usize>(rows: impl Iterator<Item = ([f64; N], f64)>) -> Option<[f64; N]> {
     let (mut matrix, mut right) = ([[0.0; N]; N], [0.0; N]);
@@ -197,10 +191,10 @@ fn linear<const N: usize>(rows: impl Iterator<Item = ([f64; N], f64)>) -> Option
             }
         }
     }
-    let (values, vectors) = eigen(N, |i, j| matrix[i][j])?;
-    let largest = values.iter().copied().fold(0.0, f64::max);
+    let values = eigen::<N>(|i, j| matrix[i][j])?;
+    let largest = values[N - 1].0.max(0.0);
     let mut solution = [0.0; N];
-    for (value, vector) in values.iter().zip(&vectors).filter(|(v, _)| **v > IDLE * largest) {
+    for (value, vector) in values.iter().filter(|v| v.0 > IDLE * largest) {
         let share: f64 = vector.iter().zip(&right).map(|(v, r)| v * r).sum::<f64>() / value;
         solution.iter_mut().zip(vector).for_each(|(x, v)| *x += share * v);
     }

@@ -3,6 +3,7 @@
 mod assemble;
 mod blends;
 mod descent;
+mod eigen;
 mod error;
 mod exact;
 mod faces;
