@@ -102,12 +102,16 @@ impl RayCaster {
                         let k = met.trailing_zeros() as usize;
                         met &= met - 1;
                         if f64::from(enter[k]) <= limit {
-                            stack[height] = (enter[k], node.children[k]);
+                            // The nearest child is looked at first.
+                            let mut at = height;
+                            while at > first && stack[at - 1].0 < enter[k] {
+                                stack[at] = stack[at - 1];
+                                at -= 1;
+                            }
+                            stack[at] = (enter[k], node.children[k]);
                             height += 1;
                         }
                     }
-                    // The nearest child is looked at first.
-                    stack[first..height].sort_by(|a, b| b.0.total_cmp(&a.0));
                 }
                 Ok(leaf) => {
                     for slot in leaf {

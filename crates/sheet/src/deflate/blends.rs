@@ -6,6 +6,8 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
+use rayon::prelude::*;
+
 use super::segments::Segments;
 use super::solid::Solid;
 use super::star::Star;
@@ -51,7 +53,7 @@ impl Blends {
             let group = segments.group(g);
             !walls.is_wall[g as usize] && (group.plane.is_none() || is_chamfer(solid, segments, walls, g))
         };
-        let is_blend: Vec<bool> = (0..segments.groups.len() as u32).map(is_blend).collect();
+        let is_blend: Vec<bool> = (0..segments.groups.len() as u32).into_par_iter().map(is_blend).collect();
         let star = Star::new(&solid.mesh.faces, solid.mesh.positions.len());
         let mut blends = Self { is_blend, touching: touching(solid, segments), ..Self::default() };
         // Blends that run into each other are one: a fillet in facets, and its corners.
@@ -181,7 +183,7 @@ impl Blends {
 fn touching(solid: &Solid, segments: &Segments) -> Vec<[u32; 2]> {
     let beside = |h: u32| [segments.of(h / 3), segments.of(solid.across(h))];
     let mut touching: Vec<[u32; 2]> =
-        (0..3 * solid.len()).map(beside).filter(|[g, other]| g != other).collect();
+        (0..3 * solid.len()).into_par_iter().map(beside).filter(|[g, other]| g != other).collect();
     touching.sort_unstable();
     touching.dedup();
     touching

@@ -9,11 +9,13 @@ const STEPS: usize = 24;
 /// After so many steps a mean error of this many times the wanted one is not worth more of them.
 const FIRST_STEPS: usize = 5;
 const HOPELESS: f64 = 8.0;
-/// Nor is one that promises less than this share, where the mean error is larger than the wanted one.
+/// A step has to promise this share: where the mean error is larger than the wanted one; where it is larger than this share of it, so
+/// that no digits are to be won; and elsewhere.
 const SLOW: f64 = 0.1;
+const SETTLED: f64 = 1e-3;
+const COARSE: f64 = 1e-2;
 /// Where the matrix is less than this share of its largest entry, the shape moves within itself, and stays.
 const IDLE: f64 = 1e-11;
-/// A step that gains less than this share is the last.
 const GAIN: f64 = 1e-14;
 /// As many numbers as a torus has; shapes with fewer leave the last ones alone.
 const NUMBERS: usize = 8;
@@ -33,7 +35,12 @@ pub(super) fn refined(guess: Shape, nodes: &[DVec3], wanted: f64) -> Shape {
         }
         let Some(by) = misfit.step(damping) else { break };
         let promised: f64 = by.iter().zip(&misfit.slope).map(|(b, s)| b * s).sum();
-        if misfit.square > enough && promised < SLOW * misfit.square {
+        let least = match misfit.square {
+            s if s > enough => SLOW,
+            s if s > COARSE * COARSE * enough => SETTLED,
+            _ => GAIN,
+        };
+        if promised < least * misfit.square {
             break;
         }
         let from = numbers(at);
