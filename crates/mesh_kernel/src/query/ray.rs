@@ -49,6 +49,12 @@ impl RayCaster {
         Self { bvh, triangles }
     }
 
+    /// The faces with finite corners, such that those which follow each other are near each other: rays from one after the other
+    /// run through the same part of the hierarchy.
+    pub fn faces(&self) -> impl Iterator<Item = u32> {
+        self.bvh.order.iter().copied().filter(|f| *f != VACANT)
+    }
+
     /// The first face met at a distance above `from` and at most `to`, in lengths of `direction`; both sides of a face
     /// count. `None` where there is none, or nothing is finite. About O(log n).
     ///

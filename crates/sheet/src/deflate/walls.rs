@@ -63,8 +63,8 @@ pub(super) struct Pair {
 #[derive(Debug)]
 pub(super) struct Walls {
     casts: Vec<Cast>,
-    /// Where the casts of every face begin, and at the end how many there are.
-    starts: Vec<u32>,
+    /// The first cast of every face; the others follow.
+    firsts: Vec<u32>,
     /// Walls are thinner than this, in mm.
     pub(super) max_thickness: f64,
     max_draft: f64,
@@ -96,7 +96,7 @@ impl Walls {
     pub(super) fn new(solid: &Solid, segments: &Segments, options: &DeflateOptions) -> Self {
         let mut walls = Self {
             casts: Vec::new(),
-            starts: Vec::new(),
+            firsts: vec![0; solid.len() as usize],
             max_thickness: f64::INFINITY,
             max_draft: options.max_draft,
             pairs: Vec::new(),
@@ -105,11 +105,6 @@ impl Walls {
         };
         let cell = solid.areas.iter().sum::<f64>() / SAMPLES;
         let rows = |f: u32| ((solid.areas[f as usize] / cell).sqrt().ceil() as u32).clamp(1, MOST_ROWS);
-        let count = |sum: &mut u32, f: u32| {
-            *sum += rows(f).pow(2);
-            Some(*sum)
-        };
-        walls.starts = std::iter::once(0).chain((0..solid.len()).scan(0, count)).collect();
         let cast = |f: u32| {
             let (rows, normal) = (rows(f), solid.normals[f as usize]);
             let area = solid.areas[f as usize] / f64::from(rows * rows);
@@ -120,8 +115,14 @@ impl Walls {
                 hit: walls.first(solid, p, -normal),
             })
         };
-        let casts = (0..solid.len()).into_par_iter().flat_map_iter(cast).collect();
+        let faces: Vec<u32> = solid.caster.faces().collect();
+        let casts = faces.par_iter().flat_map_iter(|f| cast(*f)).collect();
         walls.casts = casts;
+        let mut at = 0;
+        for f in faces {
+            walls.firsts[f as usize] = at;
+            at += rows(f).pow(2);
+        }
         walls.pair(solid, segments, options);
         walls
     }
@@ -200,11 +201,13 @@ impl Walls {
 
     /// The first thing met through the material from the middle of a face.
     pub(super) fn behind(&self, solid: &Solid, f: u32) -> Option<Opposite> {
-        let own = self.starts[f as usize] as usize..self.starts[f as usize + 1] as usize;
-        match &self.casts[own] {
+        match &self.casts[self.firsts[f as usize] as usize..] {
+            [_, next, ..] if next.face == f => {
+                self.first(solid, solid.centroid(f), -solid.normals[f as usize])
+            }
             // A face that was looked through once was so from its middle.
-            [cast] => cast.hit.filter(|hit| hit.distance <= self.max_thickness),
-            _ => self.first(solid, solid.centroid(f), -solid.normals[f as usize]),
+            [cast, ..] => cast.hit.filter(|hit| hit.distance <= self.max_thickness),
+            [] => None,
         }
     }
 
