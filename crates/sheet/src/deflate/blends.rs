@@ -58,6 +58,7 @@ impl Blends {
         let mut blends = Self { is_blend, touching: touching(solid, segments), ..Self::default() };
         // Blends that run into each other are one: a fillet in facets, and its corners.
         let mut seen = vec![false; segments.groups.len()];
+        let mut sets = Vec::new();
         for first in 0..segments.groups.len() as u32 {
             if !blends.is_blend[first as usize] || seen[first as usize] {
                 continue;
@@ -75,7 +76,12 @@ impl Blends {
                 }
                 at += 1;
             }
-            blends.look_behind(solid, segments, walls, &star, &together);
+            sets.push(together);
+        }
+        let look = |together: &Vec<u32>| blends.look_behind(solid, segments, walls, &star, together);
+        let found: Vec<Vec<(u32, Vec<Belongs>)>> = sets.par_iter().map(look).collect();
+        for (node, behind) in found.into_iter().flatten() {
+            blends.of_node.entry(node).or_default().extend(behind);
         }
         blends
     }
@@ -85,14 +91,15 @@ impl Blends {
         self.of_node.get(&node).map_or(&[], Vec::as_slice)
     }
 
+    /// What nodes of blends that run into each other belong to.
     fn look_behind(
-        &mut self,
+        &self,
         solid: &Solid,
         segments: &Segments,
         walls: &Walls,
         star: &Star,
         together: &[u32],
-    ) {
+    ) -> Vec<(u32, Vec<Belongs>)> {
         // Nodes on the blend's border, by the group beyond.
         let mut borders: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         let mut links: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
@@ -108,14 +115,17 @@ impl Blends {
             }
         }
         let mut found: BTreeMap<u32, Vec<(f64, Belongs)>> = BTreeMap::new();
-        for (&group, nodes) in &borders {
-            for (node, (_, at)) in nearest(solid, &links, nodes) {
+        let from = |(&group, nodes): (&u32, &Vec<u32>)| (group, nearest(solid, &links, nodes));
+        let nearest: Vec<(u32, BTreeMap<u32, (f64, u32)>)> = borders.par_iter().map(from).collect();
+        for (group, nearest) in nearest {
+            for (node, (_, at)) in nearest {
                 // Along the edges tells which one; how far it is, the straight line.
                 let distance =
                     solid.mesh.positions[node as usize].distance(solid.mesh.positions[at as usize]);
                 found.entry(node).or_default().push((distance, Belongs { group, at }));
             }
         }
+        let mut of_node = Vec::new();
         for (node, mut reached) in found {
             reached.sort_by(|a, b| a.0.total_cmp(&b.0));
             let here = reached.iter().filter(|r| r.0 == 0.0).map(|r| r.1);
@@ -154,9 +164,10 @@ impl Blends {
             let behind: Vec<Belongs> = wall.into_iter().chain(end).map(|r| r.1).collect();
             let behind = if behind.is_empty() { self.at_an_end(walls, &own, &reached) } else { behind };
             if !behind.is_empty() {
-                self.of_node.entry(node).or_default().extend(behind);
+                of_node.push((node, behind));
             }
         }
+        of_node
     }
 
     /// For a node where a blend ends on a wall across it: the two nearest walls that it blends, both of which touch that one but not

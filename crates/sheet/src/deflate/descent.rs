@@ -81,7 +81,7 @@ impl Misfit {
             sum.square += distance * distance;
             for i in 0..NUMBERS {
                 sum.slope[i] += derivative[i] * distance;
-                for j in 0..=i {
+                for j in 0..NUMBERS {
                     sum.matrix[i][j] += derivative[i] * derivative[j];
                 }
             }
