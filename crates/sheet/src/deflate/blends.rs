@@ -46,6 +46,9 @@ pub(super) struct Blends {
 /// Distances are compared by their bits: they are not negative.
 type Reached = Reverse<(u64, u32, u32)>;
 
+/// By node, how far the nearest of some others is, and which one that is.
+type Nearest = BTreeMap<u32, (f64, u32)>;
+
 impl Blends {
     /// Finds what lies behind every curved group that is no wall. O(n log n) in nodes of blends, times their neighbours.
     pub(super) fn new(solid: &Solid, segments: &Segments, walls: &Walls) -> Self {
@@ -116,7 +119,7 @@ impl Blends {
         }
         let mut found: BTreeMap<u32, Vec<(f64, Belongs)>> = BTreeMap::new();
         let from = |(&group, nodes): (&u32, &Vec<u32>)| (group, nearest(solid, &links, nodes));
-        let nearest: Vec<(u32, BTreeMap<u32, (f64, u32)>)> = borders.par_iter().map(from).collect();
+        let nearest: Vec<(u32, Nearest)> = borders.par_iter().map(from).collect();
         for (group, nearest) in nearest {
             for (node, (_, at)) in nearest {
                 // Along the edges tells which one; how far it is, the straight line.
@@ -241,8 +244,8 @@ fn group_normal_at(solid: &Solid, segments: &Segments, star: &Star, b: &Belongs)
 }
 
 /// For every node, the nearest of some nodes along the edges, and how far it is.
-fn nearest(solid: &Solid, links: &BTreeMap<u32, Vec<u32>>, from: &[u32]) -> BTreeMap<u32, (f64, u32)> {
-    let mut found: BTreeMap<u32, (f64, u32)> = BTreeMap::new();
+fn nearest(solid: &Solid, links: &BTreeMap<u32, Vec<u32>>, from: &[u32]) -> Nearest {
+    let mut found = Nearest::new();
     let mut queue: BinaryHeap<Reached> = from.iter().map(|&v| Reverse((0, v, v))).collect();
     while let Some(Reverse((bits, node, at))) = queue.pop() {
         let distance = f64::from_bits(bits);

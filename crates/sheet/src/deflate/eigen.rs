@@ -5,12 +5,7 @@ const ROUNDS: usize = 30;
 
 /// Eigenvalues of a symmetric matrix, ascending, and its unit eigenvectors (Jacobi's turns); `None` where something is not finite.
 pub(super) fn eigen<const N: usize>(entry: impl Fn(usize, usize) -> f64) -> Option<[(f64, [f64; N]); N]> {
-    let mut a = [[0.0; N]; N];
-    for i in 0..N {
-        for j in 0..=i {
-            (a[i][j], a[j][i]) = (entry(i, j), entry(i, j));
-        }
-    }
+    let mut a: [[f64; N]; N] = std::array::from_fn(|i| std::array::from_fn(|j| entry(i.max(j), i.min(j))));
     if !a.iter().flatten().all(|x| x.is_finite()) {
         return None;
     }
@@ -34,10 +29,9 @@ pub(super) fn eigen<const N: usize>(entry: impl Fn(usize, usize) -> f64) -> Opti
                     (row[p], row[q]) = (cosine * row[p] - sine * row[q], sine * row[p] + cosine * row[q]);
                 }
                 for rows in [&mut a, &mut turned] {
-                    for k in 0..N {
-                        let [x, y] = [rows[p][k], rows[q][k]];
-                        (rows[p][k], rows[q][k]) = (cosine * x - sine * y, sine * x + cosine * y);
-                    }
+                    let (x, y) = (rows[p], rows[q]);
+                    rows[p] = std::array::from_fn(|k| cosine * x[k] - sine * y[k]);
+                    rows[q] = std::array::from_fn(|k| sine * x[k] + cosine * y[k]);
                 }
                 (a[p][q], a[q][p]) = (0.0, 0.0);
             }

@@ -30,6 +30,9 @@ pub(super) struct Cloud {
 /// A shape with the largest distance of a node from it, in mm.
 pub(super) type Fitted = (Shape, f64);
 
+/// A shape to begin with.
+type Guess = fn(&Cloud) -> Option<Shape>;
+
 impl Cloud {
     /// The four round shapes that come nearest to the nodes, the simplest first; those that degenerate are left out, and those that
     /// clearly will not come within `wanted` mm.
@@ -43,7 +46,7 @@ impl Cloud {
             facets: self.facets.iter().map(|(p, n, a)| ((*p - centre) / scale, *n, *a)).collect(),
         };
         // Fewer nodes than this are on some shape of the kind anyway.
-        let kinds: [(usize, fn(&Self) -> Option<Shape>); 4] =
+        let kinds: [(usize, Guess); 4] =
             [(8, Self::cylinder), (10, Self::cone), (7, Self::sphere), (14, Self::torus)];
         let guesses = kinds.iter().filter(|k| unit.nodes.len() >= k.0).filter_map(|(_, guess)| guess(&unit));
         let shapes = guesses.map(|guess| refined(guess, &unit.nodes, wanted / scale)).filter(is_round);
