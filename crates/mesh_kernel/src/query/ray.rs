@@ -219,6 +219,18 @@ mod tests {
     }
 
     #[test]
+    fn all_faces_are_listed_and_crossings_go_on_as_a_caster() {
+        let mesh = two_floors(7);
+        let caster = crate::query::Crossings::new(&mesh).caster(&mesh);
+        let mut faces: Vec<u32> = caster.faces().collect();
+        faces.sort_unstable();
+        assert!(faces.into_iter().eq(0..mesh.faces.len() as u32));
+        let hit = caster.first(DVec3::new(2.3, 4.6, 3.0), -DVec3::Z, 0.0, 9.0);
+        assert_eq!(hit, RayCaster::new(&mesh).first(DVec3::new(2.3, 4.6, 3.0), -DVec3::Z, 0.0, 9.0));
+        assert!(hit.is_some());
+    }
+
+    #[test]
     fn axis_parallel_rays_through_nodes_and_edges_meet_a_face() {
         let mesh = two_floors(4);
         let caster = RayCaster::new(&mesh);
