@@ -3,6 +3,7 @@
 use glam::{DVec3, Vec4};
 use rayon::prelude::*;
 
+use super::RayCaster;
 use super::bvh::{Bvh, Child};
 use super::triangle_pair::{faces_meet_beyond_shared, triangles_meet};
 use crate::TriMesh;
@@ -27,6 +28,11 @@ impl Crossings {
     /// Builds the hierarchy. O(n log n).
     pub fn new(mesh: &TriMesh) -> Self {
         Self::with_bvh(Bvh::new(mesh), mesh, mesh.faces.len())
+    }
+
+    /// Goes on as a caster of rays, with the same hierarchy; `mesh` is what this was made of, its faces wound either way. O(n).
+    pub fn caster(self, mesh: &TriMesh) -> RayCaster {
+        RayCaster::with_bvh(self.bvh, mesh)
     }
 
     /// With a hierarchy over the first `known` faces of the mesh alone.

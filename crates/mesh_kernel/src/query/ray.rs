@@ -43,10 +43,16 @@ impl RayCaster {
         Self::with_bvh(self.bvh.refit(mesh), mesh)
     }
 
-    fn with_bvh(bvh: Bvh, mesh: &TriMesh) -> Self {
+    pub(super) fn with_bvh(bvh: Bvh, mesh: &TriMesh) -> Self {
         let corners = |f: &u32| if *f == VACANT { [DVec3::ZERO; 3] } else { mesh.corners(*f) };
         let triangles = bvh.order.iter().map(corners).map(|[a, b, c]| [a, b - a, c - a]).collect();
         Self { bvh, triangles }
+    }
+
+    /// The faces with finite corners, such that those which follow each other are near each other: rays from one after the other
+    /// run through the same part of the hierarchy.
+    pub fn faces(&self) -> impl Iterator<Item = u32> {
+        self.bvh.order.iter().copied().filter(|f| *f != VACANT)
     }
 
     /// The first face met at a distance above `from` and at most `to`, in lengths of `direction`; both sides of a face
@@ -102,12 +108,16 @@ impl RayCaster {
                         let k = met.trailing_zeros() as usize;
                         met &= met - 1;
                         if f64::from(enter[k]) <= limit {
-                            stack[height] = (enter[k], node.children[k]);
+                            // The nearest child is looked at first.
+                            let mut at = height;
+                            while at > first && stack[at - 1].0 < enter[k] {
+                                stack[at] = stack[at - 1];
+                                at -= 1;
+                            }
+                            stack[at] = (enter[k], node.children[k]);
                             height += 1;
                         }
                     }
-                    // The nearest child is looked at first.
-                    stack[first..height].sort_by(|a, b| b.0.total_cmp(&a.0));
                 }
                 Ok(leaf) => {
                     for slot in leaf {
@@ -206,6 +216,18 @@ mod tests {
             assert_eq!(hit, new.first(origin, direction, 0.0, 9.0), "{origin}");
         }
         assert!(met > 100 && met < 600, "{met}");
+    }
+
+    #[test]
+    fn all_faces_are_listed_and_crossings_go_on_as_a_caster() {
+        let mesh = two_floors(7);
+        let caster = crate::query::Crossings::new(&mesh).caster(&mesh);
+        let mut faces: Vec<u32> = caster.faces().collect();
+        faces.sort_unstable();
+        assert!(faces.into_iter().eq(0..mesh.faces.len() as u32));
+        let hit = caster.first(DVec3::new(2.3, 4.6, 3.0), -DVec3::Z, 0.0, 9.0);
+        assert_eq!(hit, RayCaster::new(&mesh).first(DVec3::new(2.3, 4.6, 3.0), -DVec3::Z, 0.0, 9.0));
+        assert!(hit.is_some());
     }
 
     #[test]

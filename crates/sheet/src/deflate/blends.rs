@@ -7,6 +7,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use super::segments::Segments;
 use super::solid::Solid;
@@ -28,6 +29,8 @@ const AS_NEAR: f64 = 1.2;
 const END_WIDTH: f64 = 2.5;
 /// Walls that are blended are no farther apart than this many of the largest thickness.
 const REACH: f64 = 6.0;
+/// Cosine of the angle above which a direction goes along a border.
+const ALONG: f64 = 0.85;
 /// Strips narrower than this share of it blend nothing: they are left where a mesh was cut.
 const BURR: f64 = 0.1;
 /// A chamfer folds from its walls by less than this, in radians.
@@ -47,8 +50,17 @@ pub(super) struct Blends {
     touching: Vec<[u32; 2]>,
 }
 
+/// How far a group is from a node in mm, what the node would belong to, and the nearest point of its border.
+type Reach = (f64, Belongs, DVec3);
+
 /// Distances are compared by their bits: they are not negative.
 type Reached = Reverse<(u64, u32, u32)>;
+
+/// By node, how far the nearest of some others is, and which one that is.
+type Nearest = BTreeMap<u32, (f64, u32)>;
+
+/// Edges of a border by both ends.
+type Border = BTreeMap<u32, Vec<u32>>;
 
 impl Blends {
     /// Finds what lies behind every curved group that is no wall. O(n log n) in nodes of blends, times their neighbours.
@@ -57,11 +69,12 @@ impl Blends {
             let group = segments.group(g);
             !walls.is_wall[g as usize] && (group.plane.is_none() || is_chamfer(solid, segments, walls, g))
         };
-        let is_blend: Vec<bool> = (0..segments.groups.len() as u32).map(is_blend).collect();
+        let is_blend: Vec<bool> = (0..segments.groups.len() as u32).into_par_iter().map(is_blend).collect();
         let star = Star::new(&solid.mesh.faces, solid.mesh.positions.len());
         let mut blends = Self { is_blend, touching: touching(solid, segments), ..Self::default() };
         // Blends that run into each other are one: a fillet in facets, and its corners.
         let mut seen = vec![false; segments.groups.len()];
+        let mut sets = Vec::new();
         for first in 0..segments.groups.len() as u32 {
             if !blends.is_blend[first as usize] || seen[first as usize] {
                 continue;
@@ -79,7 +92,12 @@ impl Blends {
                 }
                 at += 1;
             }
-            blends.look_behind(solid, segments, walls, &star, &together);
+            sets.push(together);
+        }
+        let look = |together: &Vec<u32>| blends.look_behind(solid, segments, walls, &star, together);
+        let found: Vec<Vec<(u32, Vec<Belongs>)>> = sets.par_iter().map(look).collect();
+        for (node, behind) in found.into_iter().flatten() {
+            blends.of_node.entry(node).or_default().extend(behind);
         }
         blends
     }
@@ -89,16 +107,17 @@ impl Blends {
         self.of_node.get(&node).map_or(&[], Vec::as_slice)
     }
 
+    /// What nodes of blends that run into each other belong to.
     fn look_behind(
-        &mut self,
+        &self,
         solid: &Solid,
         segments: &Segments,
         walls: &Walls,
         star: &Star,
         together: &[u32],
-    ) {
-        // Edges of the blend's border, by the group beyond, both ways.
-        let mut borders: BTreeMap<u32, BTreeMap<u32, Vec<u32>>> = BTreeMap::new();
+    ) -> Vec<(u32, Vec<Belongs>)> {
+        // Edges of the blend's border, by the group beyond.
+        let mut borders: BTreeMap<u32, Border> = BTreeMap::new();
         let mut links: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         for f in together.iter().flat_map(|g| segments.group(*g).faces.iter().copied()) {
             for h in 3 * f..3 * f + 3 {
@@ -113,7 +132,7 @@ impl Blends {
                 }
             }
         }
-        let mut found: BTreeMap<u32, Vec<(f64, Belongs)>> = BTreeMap::new();
+        let mut found: BTreeMap<u32, Vec<Reach>> = BTreeMap::new();
         let position = |v: u32| solid.mesh.positions[v as usize];
         let outline: f64 = borders
             .values()
@@ -122,16 +141,23 @@ impl Blends {
             .sum();
         let area: f64 = together.iter().map(|g| segments.group(*g).area).sum();
         let is_burr = 2.0 * area < BURR * walls.max_thickness * outline;
-        for (&group, border) in &borders {
-            for (node, (_, at)) in nearest(solid, &links, border.keys().copied()) {
+        let from =
+            |(&group, border): (&u32, &Border)| (group, nearest(solid, &links, border.keys().copied()));
+        let nearest: Vec<(u32, Nearest)> = borders.par_iter().map(from).collect();
+        for (group, nearest) in nearest {
+            let border = &borders[&group];
+            for (node, (_, at)) in nearest {
                 // Along the edges tells which one; how far it is, the straight line to the border there.
                 let ends = border.get(&at).map_or(&[][..], Vec::as_slice);
-                let distances =
-                    ends.iter().map(|end| to_segment(position(node), position(at), position(*end)));
-                let distance = distances.fold(f64::INFINITY, f64::min);
-                found.entry(node).or_default().push((distance, Belongs { group, at }));
+                let p = position(node);
+                let points = ends.iter().map(|end| on_segment(p, position(at), position(*end)));
+                let Some(point) = points.min_by(|a, b| p.distance(*a).total_cmp(&p.distance(*b))) else {
+                    continue;
+                };
+                found.entry(node).or_default().push((p.distance(point), Belongs { group, at }, point));
             }
         }
+        let mut of_node = Vec::new();
         for (node, mut reached) in found {
             reached.sort_by(|a, b| a.0.total_cmp(&b.0));
             let here = reached.iter().filter(|r| r.0 == 0.0).map(|r| r.1);
@@ -155,13 +181,21 @@ impl Blends {
                     && !under
                     && mine.iter().all(|n| n.dot(facing(b)).abs() < PARALLEL)
             };
-            let others: Vec<&(f64, Belongs)> = reached.iter().filter(|r| meets(&r.1)).collect();
+            // What lies along the border is beside the wall, not behind the blend.
+            let p = position(node);
+            let is_across = |r: &Reach| {
+                let to = (r.2 - p).normalize_or_zero();
+                let links = own.iter().filter_map(|o| borders.get(&o.group)?.get(&node)).flatten();
+                let mut tangents = links.map(|end| (position(*end) - p).normalize_or_zero());
+                is_burr || tangents.any(|tangent| tangent.dot(to).abs() < ALONG)
+            };
+            let others: Vec<&Reach> = reached.iter().filter(|r| meets(&r.1)).collect();
             let reach = if is_burr { BURR } else { REACH } * walls.max_thickness;
-            let near = |r: &&&(f64, Belongs)| r.0 < reach;
+            let near = |r: &&&Reach| r.0 < reach && is_across(r);
             let wall = others.iter().filter(near).find(|r| walls.is_wall[r.1.group as usize]);
             let within = wall.map_or(f64::INFINITY, |w| AS_NEAR * w.0);
             // Between a wall and its partner, and nearer than anything else, is the end of both.
-            let is_end = |r: &(f64, Belongs)| {
+            let is_end = |r: &Reach| {
                 own.iter().any(|o| {
                     let mut partners = walls.partners(o.group).iter();
                     let pair = partners.find(|p| p.partner == r.1.group);
@@ -175,14 +209,15 @@ impl Blends {
             let behind: Vec<Belongs> = wall.into_iter().chain(end).map(|r| r.1).collect();
             let behind = if behind.is_empty() { self.at_an_end(walls, &own, &reached) } else { behind };
             if !behind.is_empty() {
-                self.of_node.entry(node).or_default().extend(behind);
+                of_node.push((node, behind));
             }
         }
+        of_node
     }
 
     /// For a node where a blend ends on a wall across it: the two nearest walls that it blends, both of which touch that one but not
     /// each other.
-    fn at_an_end(&self, walls: &Walls, own: &[Belongs], reached: &[(f64, Belongs)]) -> Vec<Belongs> {
+    fn at_an_end(&self, walls: &Walls, own: &[Belongs], reached: &[Reach]) -> Vec<Belongs> {
         let [across] = own else { return Vec::new() };
         let touching = |b: &&Belongs| {
             b.group != across.group && walls.is_wall[b.group as usize] && self.touch(b.group, across.group)
@@ -204,7 +239,7 @@ impl Blends {
 fn touching(solid: &Solid, segments: &Segments) -> Vec<[u32; 2]> {
     let beside = |h: u32| [segments.of(h / 3), segments.of(solid.across(h))];
     let mut touching: Vec<[u32; 2]> =
-        (0..3 * solid.len()).map(beside).filter(|[g, other]| g != other).collect();
+        (0..3 * solid.len()).into_par_iter().map(beside).filter(|[g, other]| g != other).collect();
     touching.sort_unstable();
     touching.dedup();
     touching
@@ -250,11 +285,11 @@ fn group_normal_at(solid: &Solid, segments: &Segments, star: &Star, b: &Belongs)
     about.map(|f| solid.normals[f as usize]).sum::<DVec3>().normalize_or_zero()
 }
 
-/// How far a point is from a line between two, in mm.
-fn to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
-    let (ap, ab) = (p - a, b - a);
-    let along = ap.dot(ab) / ab.length_squared().max(f64::MIN_POSITIVE);
-    ap.distance(ab * along.clamp(0.0, 1.0))
+/// The point of a line between two others that is nearest to one.
+fn on_segment(p: DVec3, a: DVec3, b: DVec3) -> DVec3 {
+    let ab = b - a;
+    let along = (p - a).dot(ab) / ab.length_squared().max(f64::MIN_POSITIVE);
+    a + ab * along.clamp(0.0, 1.0)
 }
 
 /// For every node, the nearest of some nodes along the edges, and how far it is.
@@ -262,8 +297,8 @@ fn nearest(
     solid: &Solid,
     links: &BTreeMap<u32, Vec<u32>>,
     from: impl Iterator<Item = u32>,
-) -> BTreeMap<u32, (f64, u32)> {
-    let mut found: BTreeMap<u32, (f64, u32)> = BTreeMap::new();
+) -> Nearest {
+    let mut found = Nearest::new();
     let mut queue: BinaryHeap<Reached> = from.map(|v| Reverse((0, v, v))).collect();
     while let Some(Reverse((bits, node, at))) = queue.pop() {
         let distance = f64::from_bits(bits);

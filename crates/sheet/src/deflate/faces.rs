@@ -26,8 +26,11 @@ const FAILURES: usize = 300;
 const SMALL: f64 = 2e-3;
 /// Passes over a group, at most.
 const PASSES: usize = 4;
-/// A group of which this share is freeform is so as a whole.
+/// A group of which this share is freeform, or in pieces smaller than that share of it, is freeform as a whole, if at least this
+/// share is freeform beyond doubt.
 const MOSTLY: f64 = 0.9;
+const PIECE: f64 = 1e-2;
+const LEAST: f64 = 0.5;
 /// Nodes that a shape is fitted to, at most.
 const FITTED: usize = 240;
 /// A facet leans by no more than this, in radians, from the shape at its middle.
@@ -159,8 +162,12 @@ impl<'a> Growth<'a> {
             }
         }
         // Here and there a freeform face is nearly round.
-        let freeform = found.iter().filter(|f| f.shape == Shape::Freeform).map(|f| f.area).sum::<f64>();
-        if freeform > MOSTLY * found.iter().map(|f| f.area).sum::<f64>() {
+        let area: f64 = found.iter().map(|f| f.area).sum();
+        let sum =
+            |is_in: &dyn Fn(&Face) -> bool| found.iter().filter(|f| is_in(f)).map(|f| f.area).sum::<f64>();
+        let freeform = sum(&|f| f.shape == Shape::Freeform);
+        let in_pieces = sum(&|f| f.shape != Shape::Freeform && f.area < PIECE * area);
+        if freeform > LEAST * area && freeform + in_pieces > MOSTLY * area {
             return vec![face(self.solid, Shape::Freeform, own.clone())];
         }
         found
@@ -202,7 +209,7 @@ impl<'a> Growth<'a> {
             let tolerance = self.tolerance(&cloud);
             let mut best: Option<(f64, Shape, Vec<u32>)> = None;
             for (shape, error) in cloud.fits(tolerance) {
-                if error > tolerance || cloud.nodes.len() < least_nodes(&shape) {
+                if error > tolerance {
                     continue;
                 }
                 let (shape, grown) = self.grown(seed, shape, COMPARED);
@@ -298,16 +305,5 @@ impl<'a> Growth<'a> {
             (self.solid.centroid(*f), self.solid.normals[*f as usize], self.solid.areas[*f as usize])
         };
         Cloud { nodes, node_normals, facets: some().map(facet).collect() }
-    }
-}
-
-/// Fewer nodes than this are on some shape of its kind anyway.
-fn least_nodes(shape: &Shape) -> usize {
-    match shape {
-        Shape::Plane { .. } | Shape::Freeform => 4,
-        Shape::Sphere { .. } => 7,
-        Shape::Cylinder { .. } => 8,
-        Shape::Cone { .. } => 10,
-        Shape::Torus { .. } => 14,
     }
 }

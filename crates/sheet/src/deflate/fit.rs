@@ -3,21 +3,18 @@
 //! Nodes lie on the exact face however coarsely it is meshed; facets are chords. So facets only give first guesses, and the nodes
 //! what comes of them.
 
-use faer::{Mat, Side};
 use glam::DVec3;
 
+use super::descent::refined;
+use super::eigen::eigen;
 use super::shape::Shape;
 
 /// Radii larger than this many times the extent of what is fitted are flat.
 const FLAT: f64 = 30.0;
 /// Cones are steeper than this and less steep than a right angle less this, in radians.
 const STEEP: f64 = 0.02;
-/// Steps of the least squares, and the share of the extent that derivatives are taken over.
-const STEPS: usize = 24;
-const DIFFERENCE: f64 = 1e-6;
-/// After so many steps a mean error of this many times the wanted one is not worth more of them.
-const FIRST_STEPS: usize = 5;
-const HOPELESS: f64 = 8.0;
+/// Nodes that are within this share of the wanted error of one plane are on no round shape.
+const IN_PLANE: f64 = 0.1;
 /// Eigenvalues smaller than this share of the largest are directions in which the shape moves within itself.
 const IDLE: f64 = 1e-11;
 
@@ -33,38 +30,44 @@ pub(super) struct Cloud {
 /// A shape with the largest distance of a node from it, in mm.
 pub(super) type Fitted = (Shape, f64);
 
+/// A shape to begin with.
+type Guess = fn(&Cloud) -> Option<Shape>;
+
 impl Cloud {
     /// The four round shapes that come nearest to the nodes, the simplest first; those that degenerate are left out, and those that
     /// clearly will not come within `wanted` mm.
     pub(super) fn fits(&self, wanted: f64) -> Vec<Fitted> {
-        let Some((centre, scale)) = self.frame() else { return Vec::new() };
+        let Some((centre, scale)) = self.frame().filter(|_| self.sag() > IN_PLANE * wanted) else {
+            return Vec::new();
+        };
         let unit = Self {
             nodes: self.nodes.iter().map(|p| (*p - centre) / scale).collect(),
             node_normals: self.node_normals.clone(),
             facets: self.facets.iter().map(|(p, n, a)| ((*p - centre) / scale, *n, *a)).collect(),
         };
-        let guesses = [unit.cylinder(), unit.cone(), unit.sphere(), unit.torus()];
-        let shapes =
-            guesses.into_iter().flatten().map(|guess| unit.refined(guess, wanted / scale)).filter(is_round);
+        // Fewer nodes than this are on some shape of the kind anyway.
+        let kinds: [(usize, Guess); 4] =
+            [(8, Self::cylinder), (10, Self::cone), (7, Self::sphere), (14, Self::torus)];
+        let guesses = kinds.iter().filter(|k| unit.nodes.len() >= k.0).filter_map(|(_, guess)| guess(&unit));
+        let shapes = guesses.map(|guess| refined(guess, &unit.nodes, wanted / scale)).filter(is_round);
         shapes.map(|s| self.with_error(placed(s, centre, scale))).collect()
     }
 
     /// The same kind of shape, fitted from another.
     pub(super) fn refit(&self, shape: Shape, wanted: f64) -> Option<Fitted> {
         let (centre, scale) = self.frame()?;
-        let unit =
-            Self { nodes: self.nodes.iter().map(|p| (*p - centre) / scale).collect(), ..Self::default() };
+        let nodes: Vec<DVec3> = self.nodes.iter().map(|p| (*p - centre) / scale).collect();
         let guess = placed(shape, -centre / scale, 1.0 / scale);
-        let fitted = Some(unit.refined(guess, wanted / scale)).filter(is_round)?;
+        let fitted = Some(refined(guess, &nodes, wanted / scale)).filter(is_round)?;
         Some(self.with_error(placed(fitted, centre, scale)))
     }
 
     /// How far the nodes are from one plane, at most.
     pub(super) fn sag(&self) -> f64 {
         let Some((centre, _)) = self.frame() else { return 0.0 };
-        let values = eigen(3, |i, j| self.nodes.iter().map(|p| (*p - centre)[i] * (*p - centre)[j]).sum());
-        let Some((_, vectors)) = values else { return 0.0 };
-        let normal = DVec3::new(vectors[0][0], vectors[0][1], vectors[0][2]);
+        let spread = eigen::<3>(|i, j| self.nodes.iter().map(|p| (*p - centre)[i] * (*p - centre)[j]).sum());
+        let Some([(_, least), ..]) = spread else { return 0.0 };
+        let normal = DVec3::from_array(least);
         let heights = self.nodes.iter().map(|p| normal.dot(*p - centre));
         let (low, high) = heights.fold((f64::MAX, f64::MIN), |(l, h), x| (l.min(x), h.max(x)));
         high - low
@@ -82,8 +85,8 @@ impl Cloud {
     }
 
     fn cylinder(&self) -> Option<Shape> {
-        let (_, vectors) = eigen(3, |i, j| self.facets.iter().map(|(_, n, a)| n[i] * n[j] * a).sum())?;
-        let axis = DVec3::from_slice(&vectors[0]);
+        let [(_, least), ..] = eigen::<3>(|i, j| self.facets.iter().map(|(_, n, a)| n[i] * n[j] * a).sum())?;
+        let axis = DVec3::from_array(least);
         let (x, y) = axis.any_orthonormal_pair();
         // A circle through what is seen along the axis: |p|² = 2 c · p + k.
         let rows = self
@@ -98,9 +101,9 @@ impl Cloud {
     fn cone(&self) -> Option<Shape> {
         let area: f64 = self.facets.iter().map(|f| f.2).sum();
         let mean = self.facets.iter().map(|(_, n, a)| *n * *a).sum::<DVec3>() / area;
-        let spread =
-            eigen(3, |i, j| self.facets.iter().map(|(_, n, a)| (*n - mean)[i] * (*n - mean)[j] * a).sum())?;
-        let axis = DVec3::from_slice(&spread.1[0]);
+        let [(_, least), ..] =
+            eigen::<3>(|i, j| self.facets.iter().map(|(_, n, a)| (*n - mean)[i] * (*n - mean)[j] * a).sum())?;
+        let axis = DVec3::from_array(least);
         // All tangent planes go through the tip.
         let rows = self.facets.iter().map(|(p, n, a)| ([n.x * a, n.y * a, n.z * a], n.dot(*p) * a));
         let apex = DVec3::from_array(linear(rows)?);
@@ -128,8 +131,8 @@ impl Cloud {
                 [n.x, n.y, n.z, m.x, m.y, m.z]
             })
             .collect();
-        let (_, vectors) = eigen(6, |i, j| lines.iter().map(|l| l[i] * l[j]).sum())?;
-        let (moment, direction) = (DVec3::from_slice(&vectors[0][..3]), DVec3::from_slice(&vectors[0][3..]));
+        let [(_, least), ..] = eigen::<6>(|i, j| lines.iter().map(|l| l[i] * l[j]).sum())?;
+        let (moment, direction) = (DVec3::from_slice(&least[..3]), DVec3::from_slice(&least[3..]));
         let square = direction.length_squared();
         if square < 1e-6 {
             return None;
@@ -146,90 +149,6 @@ impl Cloud {
         let s = linear(rows)?;
         let minor = (s[2] + s[0] * s[0] + s[1] * s[1]).max(0.0).sqrt();
         Some(Shape::Torus { centre: on_axis + axis * s[1], axis, major: s[0], minor })
-    }
-
-    /// Levenberg and Marquardt's steps from a guess.
-    fn refined(&self, guess: Shape, wanted: f64) -> Shape {
-        let mut at = numbers(guess);
-        let error = |x: &[f64]| -> Vec<f64> {
-            let shape = shape_of(guess, x);
-            self.nodes.iter().map(|p| shape.distance(*p)).collect()
-        };
-        let square = |r: &[f64]| r.iter().map(|x| x * x).sum::<f64>();
-        let mut residual = error(&at);
-        let mut damping = 1e-3;
-        let hopeless = (HOPELESS * wanted).powi(2) * self.nodes.len() as f64;
-        for step in 0..STEPS {
-            if step >= FIRST_STEPS && square(&residual) > hopeless {
-                break;
-            }
-            let columns: Vec<Vec<f64>> = (0..at.len())
-                .map(|k| {
-                    let mut moved = at.clone();
-                    moved[k] += DIFFERENCE;
-                    let there = error(&moved);
-                    there.iter().zip(&residual).map(|(a, b)| (a - b) / DIFFERENCE).collect()
-                })
-                .collect();
-            let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-            let Some((values, vectors)) = eigen(at.len(), |i, j| dot(&columns[i], &columns[j])) else {
-                break;
-            };
-            let slope: Vec<f64> = columns.iter().map(|c| dot(c, &residual)).collect();
-            let largest = values.iter().copied().fold(0.0, f64::max);
-            let mut next = at.clone();
-            for (value, vector) in values.iter().zip(&vectors).filter(|(v, _)| **v > IDLE * largest) {
-                let step = dot(vector, &slope) / (value + damping * largest * 1e-3);
-                next.iter_mut().zip(vector).for_each(|(x, v)| *x -= step * v);
-            }
-            let there = error(&next);
-            let (before, after) = (square(&residual), square(&there));
-            if after < before {
-                (at, residual, damping) = (next, there, damping / 10.0);
-                if before - after < 1e-14 * before {
-                    break;
-                }
-            } else {
-                damping *= 10.0;
-                if damping > 1e6 {
-                    break;
-                }
-            }
-        }
-        shape_of(guess, &at)
-    }
-}
-
-fn numbers(shape: Shape) -> Vec<f64> {
-    let six = |p: DVec3, a: DVec3| vec![p.x, p.y, p.z, a.x, a.y, a.z];
-    match shape {
-        Shape::Plane { normal, offset } => vec![normal.x, normal.y, normal.z, offset],
-        Shape::Cylinder { point, axis, radius } => [six(point, axis), vec![radius]].concat(),
-        Shape::Cone { apex, axis, half_angle } => [six(apex, axis), vec![half_angle]].concat(),
-        Shape::Sphere { centre, radius } => vec![centre.x, centre.y, centre.z, radius],
-        Shape::Torus { centre, axis, major, minor } => [six(centre, axis), vec![major, minor]].concat(),
-        Shape::Freeform => Vec::new(),
-    }
-}
-
-/// The shape of some numbers, of the same kind as another.
-fn shape_of(kind: Shape, x: &[f64]) -> Shape {
-    let vector = |k: usize| DVec3::new(x[k], x[k + 1], x[k + 2]);
-    match kind {
-        Shape::Plane { .. } => Shape::Plane { normal: vector(0).normalize_or_zero(), offset: x[3] },
-        Shape::Cylinder { .. } => {
-            // Of all points of the axis, the one beside the middle of what is fitted.
-            let axis = vector(3).normalize_or_zero();
-            Shape::Cylinder { point: vector(0) - axis * axis.dot(vector(0)), axis, radius: x[6] }
-        }
-        Shape::Cone { .. } => {
-            Shape::Cone { apex: vector(0), axis: vector(3).normalize_or_zero(), half_angle: x[6] }
-        }
-        Shape::Sphere { .. } => Shape::Sphere { centre: vector(0), radius: x[3] },
-        Shape::Torus { .. } => {
-            Shape::Torus { centre: vector(0), axis: vector(3).normalize_or_zero(), major: x[6], minor: x[7] }
-        }
-        Shape::Freeform => Shape::Freeform,
     }
 }
 
@@ -264,16 +183,6 @@ fn is_round(shape: &Shape) -> bool {
     }
 }
 
-/// Eigenvalues of a symmetric matrix, ascending, and its eigenvectors.
-fn eigen(n: usize, entry: impl Fn(usize, usize) -> f64) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
-    let matrix = Mat::from_fn(n, n, entry);
-    let all_finite = (0..n).all(|i| (0..n).all(|j| matrix[(i, j)].is_finite()));
-    let found = matrix.self_adjoint_eigen(Side::Lower).ok().filter(|_| all_finite)?;
-    let values = (0..n).map(|k| found.S().column_vector()[k]).collect();
-    let vectors = (0..n).map(|k| (0..n).map(|i| found.U()[(i, k)]).collect()).collect();
-    Some((values, vectors))
-}
-
 /// The least squares solution of linear equations.
 fn linear<const N: usize>(rows: impl Iterator<Item = ([f64; N], f64)>) -> Option<[f64; N]> {
     let (mut matrix, mut right) = ([[0.0; N]; N], [0.0; N]);
@@ -285,10 +194,10 @@ fn linear<const N: usize>(rows: impl Iterator<Item = ([f64; N], f64)>) -> Option
             }
         }
     }
-    let (values, vectors) = eigen(N, |i, j| matrix[i][j])?;
-    let largest = values.iter().copied().fold(0.0, f64::max);
+    let values = eigen::<N>(|i, j| matrix[i][j])?;
+    let largest = values[N - 1].0.max(0.0);
     let mut solution = [0.0; N];
-    for (value, vector) in values.iter().zip(&vectors).filter(|(v, _)| **v > IDLE * largest) {
+    for (value, vector) in values.iter().filter(|v| v.0 > IDLE * largest) {
         let share: f64 = vector.iter().zip(&right).map(|(v, r)| v * r).sum::<f64>() / value;
         solution.iter_mut().zip(vector).for_each(|(x, v)| *x += share * v);
     }

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::plane::{Plane, PlaneTable};
 use super::segments::Segments;
 use super::solid::Solid;
-use super::walls::Walls;
+use super::walls::{Opposite, Walls};
 
 /// A partner counts if it covers this share of a wall.
 const COUNTED: f64 = 0.02;
@@ -202,11 +202,9 @@ impl Middles {
         solid.mesh.corners(f).map(|corner| {
             let p = corner.lerp(middle, INSET);
             // Behind a fillet the wall is thicker than it is.
-            let wall = |p: DVec3| {
-                let seen = walls.opposite(solid, segments, f, p);
-                seen.filter(|o| walls.is_wall[segments.of(o.face) as usize])
-            };
-            let opposite = wall(p).or_else(|| wall(middle))?;
+            let wall = |o: &Opposite| walls.is_wall[segments.of(o.face) as usize];
+            let opposite = walls.opposite(solid, segments, f, p).filter(wall);
+            let opposite = opposite.or_else(|| walls.opposite_middle(solid, segments, f).filter(wall))?;
             let partner = segments.of(opposite.face);
             if let Some((plane, number)) = self.between(group, partner) {
                 let thickness = opposite.distance;

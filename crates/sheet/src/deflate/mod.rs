@@ -2,6 +2,8 @@
 
 mod assemble;
 mod blends;
+mod descent;
+mod eigen;
 mod error;
 mod exact;
 mod faces;
@@ -159,8 +161,8 @@ pub fn deflate(
         faces = Faces::new(&solid, &segments);
         wall_pairs = report::wall_pairs(&solid, &segments, &walls, &faces);
     }
-    let exact = Exact::new(&faces, &wall_pairs);
-    let blends = Blends::new(&solid, &segments, &walls);
+    let (exact, blends) =
+        rayon::join(|| Exact::new(&faces, &wall_pairs), || Blends::new(&solid, &segments, &walls));
     if walls.paired_share < THIN {
         let unpaired = unpaired(&solid, &segments, &walls, &[], 0.0);
         let (paired, max_thickness) = (walls.paired_share, walls.max_thickness);

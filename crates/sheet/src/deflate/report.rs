@@ -154,7 +154,10 @@ pub(super) fn wall_pairs(solid: &Solid, segments: &Segments, walls: &Walls, face
         .into_par_iter()
         .map(|f| {
             let own = faces.of[f as usize];
-            let seen = walls.opposite(solid, segments, f, solid.centroid(f))?;
+            if faces.list[own as usize].shape == Shape::Freeform {
+                return None;
+            }
+            let seen = walls.opposite_middle(solid, segments, f)?;
             let other = faces.of[seen.face as usize];
             (own != other).then(|| ([own.min(other), own.max(other)], solid.areas[f as usize]))
         })

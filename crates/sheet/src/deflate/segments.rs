@@ -4,6 +4,7 @@
 //! neighbours about as wide as itself behind its smooth edges, a plane face has none or narrow ones.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use super::plane::Plane;
 use super::solid::Solid;
@@ -157,7 +158,9 @@ impl Regions {
         let n = solid.len();
         // Large faces first: their planes are the surest.
         let mut seeds: Vec<u32> = (0..n).collect();
-        seeds.sort_by(|f, g| solid.areas[*g as usize].total_cmp(&solid.areas[*f as usize]).then(f.cmp(g)));
+        seeds.par_sort_unstable_by(|f, g| {
+            solid.areas[*g as usize].total_cmp(&solid.areas[*f as usize]).then(f.cmp(g))
+        });
         let mut of_face = vec![NONE; n as usize];
         let mut faces: Vec<Vec<u32>> = Vec::new();
         let tolerance = COPLANAR * solid.size;
@@ -193,17 +196,19 @@ impl Regions {
         let normal = |own: &Vec<u32>| -> DVec3 {
             own.iter().map(|f| solid.normals[*f as usize] * solid.areas[*f as usize]).sum()
         };
-        let normals = faces.iter().map(|own| normal(own).normalize_or_zero()).collect();
+        let normals = faces.par_iter().map(|own| normal(own).normalize_or_zero()).collect();
         let beside = Self::smooth_neighbours(solid, &of_face);
         Self { of_face, faces, normals, beside }
     }
 
     /// Whether each region is a plane face, or else facets of a curved one. O(n).
     fn planes(&self, solid: &Solid) -> Vec<bool> {
-        let widths: Vec<f64> = self.faces.iter().map(|faces| width(solid, faces)).collect();
+        let widths: Vec<f64> = self.faces.par_iter().map(|faces| width(solid, faces)).collect();
         let whole_stars = self.regions_with_whole_stars(solid);
-        let mut is_plane: Vec<bool> =
-            (0..self.faces.len()).map(|r| self.looks_plane(r as u32, &widths, whole_stars[r])).collect();
+        let mut is_plane: Vec<bool> = (0..self.faces.len())
+            .into_par_iter()
+            .map(|r| self.looks_plane(r as u32, &widths, whole_stars[r]))
+            .collect();
         self.settle_chains(&mut is_plane, &widths);
         self.settle_bends(&mut is_plane);
         is_plane
@@ -250,6 +255,7 @@ impl Regions {
     /// folded plate.
     fn settle_chains(&self, is_plane: &mut [bool], widths: &[f64]) {
         let is_link: Vec<bool> = (0..self.faces.len() as u32)
+            .into_par_iter()
             .map(|r| is_plane[r as usize] && !self.beside(r).is_empty() && self.goes_on(r, widths))
             .collect();
         let mut seen = vec![false; is_link.len()];
@@ -305,17 +311,17 @@ impl Regions {
     }
 
     fn smooth_neighbours(solid: &Solid, of_face: &[u32]) -> Vec<Beside> {
-        let mut all = Vec::new();
-        for h in 0..3 * solid.len() {
+        let smooth = |h: u32| {
             let [region, other] = [h / 3, solid.across(h)].map(|f| of_face[f as usize]);
             let cosine = solid.fold_cosine(h);
-            if region != other && cosine > SHARP.cos() {
+            (region != other && cosine > SHARP.cos()).then(|| {
                 let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
                 let fold = cosine.clamp(-1.0, 1.0).acos();
-                all.push(Beside { region, other, length: a.distance(b), fold });
-            }
-        }
-        all.sort_by_key(|b| (b.region, b.other));
+                Beside { region, other, length: a.distance(b), fold }
+            })
+        };
+        let mut all: Vec<Beside> = (0..3 * solid.len()).into_par_iter().filter_map(smooth).collect();
+        all.par_sort_by_key(|b| (b.region, b.other));
         let same = |a: &Beside, b: &Beside| (a.region, a.other) == (b.region, b.other);
         let joined = |run: &[Beside]| {
             let length: f64 = run.iter().map(|b| b.length).sum();

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use mesh_kernel::TriMesh;
-use mesh_kernel::query::{Adjacency, Crossings};
+use mesh_kernel::query::{Adjacency, Crossings, RayCaster};
 
 use super::DeflateError;
 use crate::cleaning::weld;
@@ -15,6 +15,8 @@ const FLAT: f64 = 1e-9;
 pub(super) struct Solid {
     /// Nodes in one place are one; faces are wound outward; groups are gone.
     pub(super) mesh: TriMesh,
+    /// For rays through it.
+    pub(super) caster: RayCaster,
     pub(super) adjacency: Adjacency,
     /// Unit normals; of a face without area, that of the neighbour across its longest side.
     pub(super) normals: Vec<DVec3>,
@@ -45,8 +47,10 @@ impl Solid {
         }
         let mut adjacency = Adjacency::new(&mesh);
         check_closed(&mesh, &adjacency, &sources)?;
-        if let Some(&[f, g]) = Crossings::new(&mesh).self_crossing().first().map(|(f, g)| [*f, *g]).as_ref() {
-            let pairs = Crossings::new(&mesh).self_crossing().len();
+        let crossings = Crossings::new(&mesh);
+        let pairs = crossings.self_crossing();
+        if let Some(&(f, g)) = pairs.first() {
+            let pairs = pairs.len();
             let [a, b, c] = mesh.corners(f);
             let faces = [sources[f as usize], sources[g as usize]];
             return Err(DeflateError::SelfCrossing { pairs, faces, at: (a + b + c) / 3.0 });
@@ -57,8 +61,9 @@ impl Solid {
             adjacency = Adjacency::new(&mesh);
             volume = -volume;
         }
+        let caster = crossings.caster(&mesh);
         let (normals, areas) = normals_and_areas(&mesh, &adjacency);
-        Ok(Self { mesh, adjacency, normals, areas, size, volume })
+        Ok(Self { mesh, caster, adjacency, normals, areas, size, volume })
     }
 
     /// How many faces there are.

@@ -80,7 +80,7 @@ fn beside_facet(
     f: u32,
 ) -> Option<f64> {
     let at_corners = corners[f as usize].iter().flatten().map(|m| m.thickness);
-    let middle = walls.opposite(solid, segments, f, solid.centroid(f)).map(|o| o.distance);
+    let middle = walls.opposite_middle(solid, segments, f).map(|o| o.distance);
     let seen: Vec<f64> = at_corners.chain(middle).collect();
     (!seen.is_empty()).then(|| seen.iter().sum::<f64>() / seen.len() as f64)
 }

@@ -1,7 +1,6 @@
 //! Which groups are walls, and which groups lie opposite to each other (Sheen et al. 2008, section 6.1).
 
 use glam::DVec3;
-use mesh_kernel::query::RayCaster;
 use rayon::prelude::*;
 
 use super::DeflateOptions;
@@ -63,10 +62,9 @@ pub(super) struct Pair {
 /// The walls of a solid.
 #[derive(Debug)]
 pub(super) struct Walls {
-    caster: RayCaster,
     casts: Vec<Cast>,
-    /// Where the casts of every face begin, and at the end how many there are.
-    starts: Vec<u32>,
+    /// The first cast of every face; the others follow.
+    firsts: Vec<u32>,
     /// Walls are thinner than this, in mm.
     pub(super) max_thickness: f64,
     max_draft: f64,
@@ -97,9 +95,8 @@ impl Walls {
     /// Looks through the material from everywhere. O(n log n).
     pub(super) fn new(solid: &Solid, segments: &Segments, options: &DeflateOptions) -> Self {
         let mut walls = Self {
-            caster: RayCaster::new(&solid.mesh),
             casts: Vec::new(),
-            starts: Vec::new(),
+            firsts: vec![0; solid.len() as usize],
             max_thickness: f64::INFINITY,
             max_draft: options.max_draft,
             pairs: Vec::new(),
@@ -107,14 +104,25 @@ impl Walls {
             paired_share: 0.0,
         };
         let cell = solid.areas.iter().sum::<f64>() / SAMPLES;
-        let casts: Vec<Vec<Cast>> =
-            (0..solid.len()).into_par_iter().map(|f| walls.casts(solid, f, cell)).collect();
-        let count = |sum: &mut u32, casts: &Vec<Cast>| {
-            *sum += casts.len() as u32;
-            Some(*sum)
+        let rows = |f: u32| ((solid.areas[f as usize] / cell).sqrt().ceil() as u32).clamp(1, MOST_ROWS);
+        let cast = |f: u32| {
+            let (rows, normal) = (rows(f), solid.normals[f as usize]);
+            let area = solid.areas[f as usize] / f64::from(rows * rows);
+            let walls = &walls;
+            spread(solid.mesh.corners(f), rows).map(move |p| Cast {
+                face: f,
+                area,
+                hit: walls.first(solid, p, -normal),
+            })
         };
-        walls.starts = std::iter::once(0).chain(casts.iter().scan(0, count)).collect();
-        walls.casts = casts.into_iter().flatten().collect();
+        let faces: Vec<u32> = solid.caster.faces().collect();
+        let casts = faces.par_iter().flat_map_iter(|f| cast(*f)).collect();
+        walls.casts = casts;
+        let mut at = 0;
+        for f in faces {
+            walls.firsts[f as usize] = at;
+            at += rows(f).pow(2);
+        }
         walls.pair(solid, segments, options);
         walls
     }
@@ -181,18 +189,25 @@ impl Walls {
     /// What is opposite to a point of a face, if it is near enough and looks back.
     pub(super) fn opposite(&self, solid: &Solid, segments: &Segments, f: u32, p: DVec3) -> Option<Opposite> {
         let inward = -solid.normals[f as usize];
-        let hit = self.caster.first(p, inward, START * solid.size, self.max_thickness)?;
+        let hit = solid.caster.first(p, inward, START * solid.size, self.max_thickness)?;
         self.faces_back(solid, segments, f, hit.face)
             .then_some(Opposite { face: hit.face, distance: hit.distance })
     }
 
+    /// What is opposite to the middle of a face, if it is near enough and looks back.
+    pub(super) fn opposite_middle(&self, solid: &Solid, segments: &Segments, f: u32) -> Option<Opposite> {
+        self.behind(solid, f).filter(|hit| self.faces_back(solid, segments, f, hit.face))
+    }
+
     /// The first thing met through the material from the middle of a face.
     pub(super) fn behind(&self, solid: &Solid, f: u32) -> Option<Opposite> {
-        let own = self.starts[f as usize] as usize..self.starts[f as usize + 1] as usize;
-        match &self.casts[own] {
+        match &self.casts[self.firsts[f as usize] as usize..] {
+            [_, next, ..] if next.face == f => {
+                self.first(solid, solid.centroid(f), -solid.normals[f as usize])
+            }
             // A face that was looked through once was so from its middle.
-            [cast] => cast.hit.filter(|hit| hit.distance <= self.max_thickness),
-            _ => self.first(solid, solid.centroid(f), -solid.normals[f as usize]),
+            [cast, ..] => cast.hit.filter(|hit| hit.distance <= self.max_thickness),
+            [] => None,
         }
     }
 
@@ -210,7 +225,7 @@ impl Walls {
 
     /// The first thing met from a point in a direction, within the largest thickness.
     pub(super) fn first(&self, solid: &Solid, p: DVec3, direction: DVec3) -> Option<Opposite> {
-        let hit = self.caster.first(p, direction, START * solid.size, self.max_thickness)?;
+        let hit = solid.caster.first(p, direction, START * solid.size, self.max_thickness)?;
         Some(Opposite { face: hit.face, distance: hit.distance })
     }
 
@@ -231,7 +246,7 @@ impl Walls {
                 if !curved(f) {
                     return false;
                 }
-                let opposite = self.behind(solid, f).filter(|o| self.faces_back(solid, segments, f, o.face));
+                let opposite = self.opposite_middle(solid, segments, f);
                 let Some(opposite) = opposite else { return true };
                 let lean = solid.normals[f as usize].dot(-solid.normals[opposite.face as usize]);
                 let allowed = fold(f).max(fold(opposite.face)) + FLARE;
@@ -299,29 +314,6 @@ impl Walls {
             .map(|(face, _)| face.triangles.clone())
             .collect()
     }
-
-    fn casts(&self, solid: &Solid, f: u32, cell: f64) -> Vec<Cast> {
-        let area = solid.areas[f as usize];
-        let n = ((area / cell).sqrt().ceil() as u32).clamp(1, MOST_ROWS);
-        let [a, b, c] = solid.mesh.corners(f);
-        let part = area / f64::from(n * n);
-        let cast =
-            |p: DVec3| Cast { face: f, area: part, hit: self.first(solid, p, -solid.normals[f as usize]) };
-        // The middles of the n² parts that equal divisions of the sides make.
-        let step = 1.0 / f64::from(n);
-        let mut casts = Vec::with_capacity((n * n) as usize);
-        for i in 0..n {
-            for j in 0..n - i {
-                let at = |u: f64, v: f64| a + (b - a) * (u * step) + (c - a) * (v * step);
-                let (i, j) = (f64::from(i), f64::from(j));
-                casts.push(cast(at(i + 1.0 / 3.0, j + 1.0 / 3.0)));
-                if j + i + 1.0 < f64::from(n) {
-                    casts.push(cast(at(i + 2.0 / 3.0, j + 2.0 / 3.0)));
-                }
-            }
-        }
-        casts
-    }
 }
 
 /// About how many looks there are in all, beside one a face.
@@ -331,10 +323,21 @@ const MOST_ROWS: u32 = 32;
 /// Planes that lean less than this are parallel: files round.
 const SMALLEST_LEAN: f64 = 1e-3;
 
+/// The middles of the n² parts of a triangle that equal divisions of the sides make.
+fn spread([a, b, c]: [DVec3; 3], n: u32) -> impl Iterator<Item = DVec3> {
+    let step = 1.0 / f64::from(n);
+    let at = move |u: f64, v: f64| a + (b - a) * (u * step) + (c - a) * (v * step);
+    let cells = (0..n).flat_map(move |i| (0..n - i).map(move |j| (i, j)));
+    cells.flat_map(move |(i, j)| {
+        let shifts = if i + j + 1 < n { &[1.0 / 3.0, 2.0 / 3.0][..] } else { &[1.0 / 3.0] };
+        shifts.iter().map(move |shift| at(f64::from(i) + shift, f64::from(j) + shift))
+    })
+}
+
 /// The largest thickness, told from the looks: the median one, and what follows on it without a gap.
 fn told_thickness(looks: &[Look], area: f64) -> f64 {
     let mut seen: Vec<(f64, f64)> = looks.iter().filter_map(|l| Some((l.seen?.1, l.area))).collect();
-    seen.sort_by(|a, b| a.0.total_cmp(&b.0));
+    seen.par_sort_by(|a, b| a.0.total_cmp(&b.0));
     let all: f64 = seen.iter().map(|s| s.1).sum();
     let mut sum = 0.0;
     let mut largest = 0.0;
@@ -353,7 +356,7 @@ fn told_thickness(looks: &[Look], area: f64) -> f64 {
 fn pairs_of(looks: &[Look]) -> Vec<Pair> {
     let mut seen: Vec<(u32, u32, f64, f64)> =
         looks.iter().filter_map(|l| l.seen.map(|(partner, s)| (l.group, partner, l.area, s))).collect();
-    seen.sort_by_key(|s| (s.0, s.1));
+    seen.par_sort_by_key(|s| (s.0, s.1));
     let same = |a: &(u32, u32, f64, f64), b: &(u32, u32, f64, f64)| (a.0, a.1) == (b.0, b.1);
     let pair = |run: &[(u32, u32, f64, f64)]| {
         let area: f64 = run.iter().map(|r| r.2).sum();
