@@ -30,7 +30,7 @@ const END_WIDTH: f64 = 2.5;
 /// Walls that are blended are no farther apart than this many of the largest thickness.
 const REACH: f64 = 6.0;
 /// Cosine of the angle above which a direction goes along a border.
-const ALONG: f64 = 0.85;
+const ALONG: f64 = 0.6;
 /// Strips narrower than this share of it blend nothing: they are left where a mesh was cut.
 const BURR: f64 = 0.1;
 /// A chamfer folds from its walls by less than this, in radians.
@@ -181,17 +181,19 @@ impl Blends {
                     && !under
                     && mine.iter().all(|n| n.dot(facing(b)).abs() < PARALLEL)
             };
-            // What lies along the border is beside the wall, not behind the blend.
+            // What lies along the border is beside the wall, not across the blend.
             let p = position(node);
             let is_across = |r: &Reach| {
                 let to = (r.2 - p).normalize_or_zero();
                 let links = own.iter().filter_map(|o| borders.get(&o.group)?.get(&node)).flatten();
-                let mut tangents = links.map(|end| (position(*end) - p).normalize_or_zero());
-                is_burr || tangents.any(|tangent| tangent.dot(to).abs() < ALONG)
+                links.map(|end| (position(*end) - p).normalize_or_zero()).all(|t| t.dot(to).abs() < ALONG)
             };
             let others: Vec<&Reach> = reached.iter().filter(|r| meets(&r.1)).collect();
             let reach = if is_burr { BURR } else { REACH } * walls.max_thickness;
-            let near = |r: &&&Reach| r.0 < reach && is_across(r);
+            // A round between a wall and its end has other walls only along it.
+            let mut ends = others.iter().filter(|r| r.0 > 0.0 && !walls.is_wall[r.1.group as usize]);
+            let reach = ends.find(|r| is_across(r)).map_or(reach, |end| reach.min(AS_NEAR * end.0));
+            let near = |r: &&&Reach| r.0 < reach;
             let wall = others.iter().filter(near).find(|r| walls.is_wall[r.1.group as usize]);
             let within = wall.map_or(f64::INFINITY, |w| AS_NEAR * w.0);
             // Between a wall and its partner, and nearer than anything else, is the end of both.
@@ -205,8 +207,11 @@ impl Blends {
             if reached.iter().any(is_end) {
                 continue;
             }
-            let end = others.iter().find(|r| !walls.is_wall[r.1.group as usize] && r.0 <= within);
-            let behind: Vec<Belongs> = wall.into_iter().chain(end).map(|r| r.1).collect();
+            // In a corner two ends are as near.
+            let is_near_end = |r: &&&Reach| !walls.is_wall[r.1.group as usize] && r.0 <= within;
+            let nearest_end = others.iter().find(is_near_end).map_or(0.0, |r| r.0);
+            let ends = others.iter().filter(is_near_end).filter(|r| r.0 <= AS_NEAR * nearest_end);
+            let behind: Vec<Belongs> = wall.into_iter().chain(ends).map(|r| r.1).collect();
             let behind = if behind.is_empty() { self.at_an_end(walls, &own, &reached) } else { behind };
             if !behind.is_empty() {
                 of_node.push((node, behind));
@@ -293,11 +298,7 @@ fn on_segment(p: DVec3, a: DVec3, b: DVec3) -> DVec3 {
 }
 
 /// For every node, the nearest of some nodes along the edges, and how far it is.
-fn nearest(
-    solid: &Solid,
-    links: &BTreeMap<u32, Vec<u32>>,
-    from: impl Iterator<Item = u32>,
-) -> Nearest {
+fn nearest(solid: &Solid, links: &BTreeMap<u32, Vec<u32>>, from: impl Iterator<Item = u32>) -> Nearest {
     let mut found = Nearest::new();
     let mut queue: BinaryHeap<Reached> = from.map(|v| Reverse((0, v, v))).collect();
     while let Some(Reverse((bits, node, at))) = queue.pop() {

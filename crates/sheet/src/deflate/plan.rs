@@ -181,8 +181,12 @@ fn round_steps(
             return false;
         }
         let sides = group.faces.iter().flat_map(|f| 3 * f..3 * f + 3);
-        let beside: BTreeSet<u32> =
-            sides.map(|h| segments.of(solid.across(h))).filter(|o| kept[*o as usize]).collect();
+        let mut beside: BTreeSet<u32> = sides.map(|h| segments.of(solid.across(h))).collect();
+        // What reaches from a wall to its partner is the end of both.
+        if beside.iter().any(|o| walls.partners(*o).iter().any(|p| beside.contains(&p.partner))) {
+            return false;
+        }
+        beside.retain(|o| kept[*o as usize]);
         let length: f64 = border(solid, segments, gone, *g)
             .map(|[a, b]| moved[a as usize].distance(moved[b as usize]))
             .sum();

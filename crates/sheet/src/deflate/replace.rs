@@ -17,6 +17,10 @@ use super::walls::Walls;
 const MEETING: f64 = 0.03;
 /// The same for the plane of an end face.
 const MEETING_END: f64 = 0.3;
+/// Cosine of the angle between a wall and a face that runs into it at less than that.
+const PARALLEL_END: f64 = 0.954;
+/// A face stands upright on a wall if the cosine of the angle between them is less than this.
+const UPRIGHT: f64 = 0.3;
 /// Faces without a partner smaller than this many squares of the thickness hold nothing.
 const TRIFLE: f64 = 0.05;
 /// How much staying beside the starting point weighs against the planes of facets that do not agree on a point, as where
@@ -210,20 +214,75 @@ impl<'a> Replacement<'a> {
             return;
         }
         if let Some(k) = self.middles.plane_of[g] {
-            wanted.ends.push(self.middles.planes.plane(k));
+            let plane = self.middles.planes.plane(k);
+            let upright = wanted.walls.iter().all(|w| w.normal.dot(plane.normal).abs() < UPRIGHT);
+            let within = if upright { vec![] } else { self.ends_within(belongs, wanted) };
+            wanted.ends.extend(if within.is_empty() { vec![plane] } else { within });
             return;
         }
         let p = self.solid.mesh.positions[belongs.at as usize];
+        let mut facets = Vec::new();
+        let mut slants = false;
         for &corner in self.star.of(belongs.at) {
             let f = corner / 3;
             let normal = self.solid.normals[f as usize];
-            let own = self.segments.of(f) == belongs.group && self.solid.areas[f as usize] >= 0.2 * trifle;
+            if self.segments.of(f) != belongs.group {
+                continue;
+            }
+            let lean = |wall: &Plane| wall.normal.dot(normal).abs();
+            let leans = wanted.walls.iter().map(lean).chain(wanted.facets.iter().map(|w| lean(&w.0)));
+            let lean = leans.fold(0.0, f64::max);
+            slants |= lean > UPRIGHT;
             // What is nearly parallel to the wall is not its end.
-            let beside = wanted.facets.iter().any(|w| w.0.normal.cross(normal).length() < MEETING_END);
-            if own && !beside {
-                wanted.end_facets.push((Plane { normal, offset: normal.dot(p) }, self.angle(corner)));
+            if lean < PARALLEL_END && self.solid.areas[f as usize] >= 0.2 * trifle {
+                facets.push((Plane { normal, offset: normal.dot(p) }, self.angle(corner)));
             }
         }
+        let within = if slants { self.ends_within(belongs, wanted) } else { vec![] };
+        if within.is_empty() {
+            wanted.end_facets.extend(facets);
+        } else {
+            wanted.ends.extend(within);
+        }
+    }
+
+    /// Where a wall with a round or slanting end has its end: as far as its middle goes through the material, away from its border.
+    fn ends_within(&self, belongs: Belongs, wanted: &Wanted) -> Vec<Plane> {
+        let Belongs { group, at } = belongs;
+        let solid = self.solid;
+        let p = solid.mesh.positions[at as usize];
+        let facets = || wanted.facets.iter().max_by(|a, b| a.1.total_cmp(&b.1)).map(|f| f.0);
+        let Some(wall) = wanted.walls.first().copied().or_else(facets) else { return Vec::new() };
+        let middle = p - wall.normal * wall.height(p);
+        let borders = self.star.of(at).iter().flat_map(|corner| {
+            let f = corner / 3;
+            // The two sides of the face that meet in the node.
+            [*corner, 3 * f + (corner + 2) % 3].map(|h| (f, h))
+        });
+        let away = borders.filter_map(|(f, h)| {
+            let is_border = self.walls.is_wall[self.segments.of(f) as usize]
+                && self.segments.of(solid.across(h)) == group;
+            let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
+            let away = (b - a).cross(solid.normals[f as usize]);
+            let away = (away - wall.normal * wall.normal.dot(away)).normalize_or_zero();
+            (is_border && away != DVec3::ZERO).then_some(away)
+        });
+        // Along a smooth border there is one direction, in a corner there are two.
+        let mut directions: Vec<DVec3> = Vec::new();
+        for away in away {
+            match directions.iter_mut().find(|d| d.normalize_or_zero().dot(away) > CORNER_TURN.cos()) {
+                Some(same) => *same += away,
+                None => directions.push(away),
+            }
+        }
+        let end = |direction: DVec3| {
+            let normal = direction.normalize_or_zero();
+            let hit = self.walls.first(solid, middle, normal)?;
+            let leaves = solid.normals[hit.face as usize].dot(normal) > 0.0;
+            let on_wall = self.walls.is_wall[self.segments.of(hit.face) as usize];
+            (leaves && !on_wall).then(|| Plane { normal, offset: normal.dot(middle) + hit.distance })
+        };
+        directions.into_iter().filter_map(end).collect()
     }
 
     /// The angle of a face at a corner; 0 where it has none.

@@ -3,6 +3,8 @@
 //! A plane face is told from a facet of a curved one by its surroundings, not by numbers of triangles: a facet has
 //! neighbours about as wide as itself behind its smooth edges, a plane face has none or narrow ones.
 
+use std::collections::BTreeSet;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -88,7 +90,7 @@ impl Segments {
         Self { groups, of_face }
     }
 
-    /// Makes groups of their own of sets of faces.
+    /// Makes groups of their own of sets of faces, and of what these leave in several pieces.
     pub(super) fn split_off(&mut self, parts: &[Vec<u32>], solid: &Solid) {
         for part in parts {
             let number = self.groups.len() as u32;
@@ -98,10 +100,54 @@ impl Segments {
             }
             self.groups.push(Group { faces: part.clone(), plane: None, area });
         }
-        let of_face = &self.of_face;
+        let mut parted: Vec<u32> = Vec::new();
         for (g, group) in (0u32..).zip(&mut self.groups) {
-            group.faces.retain(|f| of_face[*f as usize] == g);
-            group.area = group.faces.iter().map(|f| solid.areas[*f as usize]).sum();
+            let before = group.faces.len();
+            group.faces.retain(|f| self.of_face[*f as usize] == g);
+            if group.faces.len() < before {
+                parted.push(g);
+            }
+        }
+        for g in parted {
+            self.part(g, solid);
+        }
+    }
+
+    /// Makes groups of the pieces of one; the first keeps its number.
+    fn part(&mut self, g: u32, solid: &Solid) {
+        let plane = self.groups[g as usize].plane;
+        let faces = std::mem::take(&mut self.groups[g as usize].faces);
+        let mut seen = BTreeSet::new();
+        let mut pieces: Vec<Vec<u32>> = Vec::new();
+        for seed in faces {
+            if !seen.insert(seed) {
+                continue;
+            }
+            let (mut piece, mut at) = (vec![seed], 0);
+            while at < piece.len() {
+                for h in 3 * piece[at]..3 * piece[at] + 3 {
+                    let other = solid.across(h);
+                    let together = plane.is_some() || solid.fold_cosine(h) > SHARP.cos();
+                    if self.of_face[other as usize] == g && together && seen.insert(other) {
+                        piece.push(other);
+                    }
+                }
+                at += 1;
+            }
+            piece.sort_unstable();
+            pieces.push(piece);
+        }
+        self.groups[g as usize].area = 0.0;
+        for (k, faces) in pieces.into_iter().enumerate() {
+            let number = if k == 0 { g } else { self.groups.len() as u32 };
+            let area = faces.iter().map(|f| solid.areas[*f as usize]).sum();
+            faces.iter().for_each(|f| self.of_face[*f as usize] = number);
+            let group = Group { faces, plane, area };
+            if k == 0 {
+                self.groups[g as usize] = group;
+            } else {
+                self.groups.push(group);
+            }
         }
     }
 

@@ -1,5 +1,7 @@
 //! Which groups are walls, and which groups lie opposite to each other (Sheen et al. 2008, section 6.1).
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -28,6 +30,10 @@ const SLENDER: f64 = 0.35;
 const OBLIQUE: f64 = 70.0 / 180.0 * std::f64::consts::PI;
 /// Facets lean by no more than the folds about them and this, in radians, where their walls are parallel.
 const FLARE: f64 = 5.0 / 180.0 * std::f64::consts::PI;
+/// Faces belong to a rim if they are within this share of the thickness of it.
+const RIM: f64 = 0.1;
+/// Looks beside a border begin this share of the way from it to the middle of the face.
+const INSET: f64 = 0.05;
 /// Walls are thicker than this share of what walls are on the whole.
 const HAIR: f64 = 0.03;
 /// Walls are wider than this share of it.
@@ -261,30 +267,97 @@ impl Walls {
             }
             let (g, mut part, mut at) = (segments.of(seed), vec![seed], 0);
             seen[seed as usize] = true;
-            let mut border = 0.0;
+            let (mut border, mut sides, mut ends) = (0.0, Vec::new(), BTreeSet::new());
             while at < part.len() {
                 for h in 3 * part[at]..3 * part[at] + 3 {
                     let other = solid.across(h);
                     let to = segments.of(other);
                     if to != g && self.is_wall[to as usize] && solid.fold_cosine(h) > OBLIQUE.cos() {
-                        let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
-                        border += a.distance(b);
+                        border += length_of(solid, h);
                     }
-                    if to == g && looks_past[other as usize] && !seen[other as usize] {
-                        seen[other as usize] = true;
-                        part.push(other);
+                    if to == g && looks_past[other as usize] {
+                        if !seen[other as usize] {
+                            seen[other as usize] = true;
+                            part.push(other);
+                        }
+                    } else if self.is_wall[to as usize] {
+                        sides.push(h);
+                    } else {
+                        ends.insert(to);
                     }
                 }
                 at += 1;
             }
             // A fillet runs along another wall, and is narrow.
             let area: f64 = part.iter().map(|f| solid.areas[*f as usize]).sum();
-            if border > 0.0 && area < self.max_thickness * border {
+            let is_flare = border > 0.0 && area < self.max_thickness * border;
+            let is_rim = !is_flare && self.is_rim(solid, segments, &looks_past, &sides, &ends);
+            if is_rim {
+                self.widen(solid, segments, &mut part, &mut seen);
+            }
+            if is_flare || is_rim {
                 part.sort_unstable();
                 found.push(part);
             }
         }
         found
+    }
+
+    /// Whether what looks past the opposite wall is the round end of the walls beyond its sides: halfway between these and what is
+    /// opposite, one leaves the material through such faces, or through the ends that they touch.
+    fn is_rim(
+        &self,
+        solid: &Solid,
+        segments: &Segments,
+        looks_past: &[bool],
+        sides: &[u32],
+        ends: &BTreeSet<u32>,
+    ) -> bool {
+        let ends_here = |h: u32| {
+            let Some(beyond) = solid.adjacency.partner(h).map(|k| k / 3) else { return false };
+            let normal = solid.normals[beyond as usize];
+            let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
+            // The side runs against the face beyond it.
+            let away = (a - b).cross(normal).normalize_or_zero();
+            let from = a.midpoint(b).lerp(solid.centroid(beyond), INSET);
+            let Some(opposite) = self.first(solid, from, -normal) else { return false };
+            let hit = self.first(solid, from - normal * (opposite.distance / 2.0), away);
+            hit.is_some_and(|hit| looks_past[hit.face as usize] || ends.contains(&segments.of(hit.face)))
+        };
+        let length = |all: &mut dyn Iterator<Item = u32>| all.map(|h| length_of(solid, h)).sum::<f64>();
+        let whole = length(&mut sides.iter().copied());
+        whole > 0.0 && length(&mut sides.iter().copied().filter(|h| ends_here(*h))) > 0.5 * whole
+    }
+
+    /// Adds the faces of the group about a rim that are within a trifle of it: the first facets of a round hardly lean.
+    fn widen(&self, solid: &Solid, segments: &Segments, part: &mut Vec<u32>, seen: &mut [bool]) {
+        let at = |v: u32| solid.mesh.positions[v as usize];
+        let nodes = part.iter().flat_map(|f| solid.mesh.faces[*f as usize]);
+        let mut reached: BTreeMap<u32, f64> = nodes.map(|v| (v, 0.0)).collect();
+        let mut k = 0;
+        while k < part.len() {
+            for h in 3 * part[k]..3 * part[k] + 3 {
+                let other = solid.across(h);
+                if seen[other as usize] || segments.of(other) != segments.of(part[k]) {
+                    continue;
+                }
+                let face = solid.mesh.faces[other as usize];
+                let how_far = |v: u32| {
+                    let by_edge = |w: &u32| reached.get(w).map(|d| d + at(*w).distance(at(v)));
+                    reached
+                        .get(&v)
+                        .copied()
+                        .unwrap_or_else(|| face.iter().filter_map(by_edge).fold(f64::INFINITY, f64::min))
+                };
+                let far = face.map(|v| (v, how_far(v)));
+                if far.iter().all(|(_, d)| *d < RIM * self.max_thickness) {
+                    reached.extend(far);
+                    seen[other as usize] = true;
+                    part.push(other);
+                }
+            }
+            k += 1;
+        }
     }
 
     /// Fillets that curved walls run into: hollow faces without an exact partner, beside faces of their group that have one. What is
@@ -314,6 +387,11 @@ impl Walls {
             .map(|(face, _)| face.triangles.clone())
             .collect()
     }
+}
+
+fn length_of(solid: &Solid, h: u32) -> f64 {
+    let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
+    a.distance(b)
 }
 
 /// About how many looks there are in all, beside one a face.
