@@ -336,7 +336,7 @@ fn independent(wanted: &Wanted) -> Vec<Plane> {
 }
 
 /// The point on all planes that is nearest to `p`.
-fn on_planes(p: DVec3, planes: &[Plane]) -> DVec3 {
+pub(super) fn on_planes(p: DVec3, planes: &[Plane]) -> DVec3 {
     // The second round takes away what the first one rounded.
     (0..2).fold(p, |p, _| p + step_to(p, planes))
 }

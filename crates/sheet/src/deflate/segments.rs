@@ -5,7 +5,7 @@
 
 use std::collections::BTreeSet;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 use super::plane::Plane;
@@ -15,9 +15,11 @@ use super::solid::Solid;
 pub(super) const SHARP: f64 = 40.0 / 180.0 * std::f64::consts::PI;
 /// Faces whose nodes are within this share of the solid's size of one plane are in that plane; single-precision files
 /// hold coordinates to 6e-8 of it.
-const COPLANAR: f64 = 1e-6;
+pub(super) const COPLANAR: f64 = 1e-6;
 /// Normals in one plane differ by less than this, in radians, where the faces are not so thin that rounding turns them.
 const COPLANAR_TURN: f64 = 2e-3;
+/// Planes of rounded faces are fitted anew so many times.
+const REFITS: usize = 5;
 /// A plane face is this many times wider than the facets of the curved faces that it runs into.
 const WIDER: f64 = 3.0;
 /// So many plane pieces that run into each other are facets of a curved face.
@@ -51,7 +53,7 @@ pub(super) struct Segments {
 impl Segments {
     /// Cuts a skin into groups. O(n log n).
     pub(super) fn new(solid: &Solid) -> Self {
-        let regions = Regions::new(solid);
+        let regions = Regions::new(solid, COPLANAR * solid.size);
         let is_plane = regions.planes(solid);
         let mut of_face = vec![NONE; solid.len() as usize];
         let mut groups = Vec::new();
@@ -84,7 +86,7 @@ impl Segments {
             }
             faces.sort_unstable();
             let area = faces.iter().map(|f| solid.areas[*f as usize]).sum();
-            let plane = plane.then(|| fitted_plane(solid, &faces));
+            let plane = plane.then(|| mean_plane(solid, &faces));
             groups.push(Group { faces, plane, area });
         }
         Self { groups, of_face }
@@ -162,13 +164,48 @@ impl Segments {
     }
 }
 
+/// Sets of two and more faces that lie in one plane, whose nodes are off it by up to `tolerance` mm. O(n log n).
+pub(super) fn plane_regions(solid: &Solid, tolerance: f64) -> Vec<Vec<u32>> {
+    let mut regions = Regions::new(solid, tolerance).faces;
+    regions.retain(|faces| faces.len() > 1);
+    regions
+}
+
+/// The plane through the nodes of faces that are nearly in one (least squares, by area); it faces as most of them do.
+pub(super) fn fitted_plane(solid: &Solid, faces: &[u32]) -> Plane {
+    let flat = mean_plane(solid, faces);
+    let corners = || faces.iter().map(|f| (solid.mesh.corners(*f), solid.areas[*f as usize]));
+    let weight: f64 = corners().map(|c| 3.0 * c.1).sum();
+    let origin = corners().map(|([a, b, c], w)| (a + b + c) * w).sum::<DVec3>() / weight;
+    let mut spread = DMat3::ZERO;
+    for (corners, w) in corners() {
+        for r in corners.map(|p| p - origin) {
+            spread += DMat3::from_cols(r * r.x, r * r.y, r * r.z) * w;
+        }
+    }
+    // What is left of the spread about the flat normal in the plane: the lean that makes it least.
+    let [x, y] = flat.frame();
+    let n = flat.normal;
+    let (xx, xy, yy) = (x.dot(spread * x), x.dot(spread * y), y.dot(spread * y));
+    let (xn, yn) = (x.dot(spread * n), y.dot(spread * n));
+    let square = xx * yy - xy * xy;
+    let is_broad = square > 1e-9 * (xx + yy) * (xx + yy);
+    if !is_broad {
+        return flat;
+    }
+    let (u, v) = ((xn * yy - yn * xy) / square, (yn * xx - xn * xy) / square);
+    let normal = (n - x * u - y * v).normalize_or_zero();
+    if normal == DVec3::ZERO { flat } else { Plane { normal, offset: normal.dot(origin) } }
+}
+
 /// The plane of faces that are in one.
-fn fitted_plane(solid: &Solid, faces: &[u32]) -> Plane {
+fn mean_plane(solid: &Solid, faces: &[u32]) -> Plane {
     let origin = solid.centroid(faces[0]);
     let (mut normal, mut moment, mut area) = (DVec3::ZERO, DVec3::ZERO, 0.0);
     for &f in faces {
         let a = solid.areas[f as usize];
-        normal += solid.normals[f as usize] * a;
+        let own = solid.normals[f as usize] * a;
+        normal += if own.dot(normal) < 0.0 { -own } else { own };
         moment += (solid.centroid(f) - origin) * a;
         area += a;
     }
@@ -200,16 +237,16 @@ struct Beside {
 }
 
 impl Regions {
-    fn new(solid: &Solid) -> Self {
+    fn new(solid: &Solid, tolerance: f64) -> Self {
         let n = solid.len();
         // Large faces first: their planes are the surest.
         let mut seeds: Vec<u32> = (0..n).collect();
         seeds.par_sort_unstable_by(|f, g| {
             solid.areas[*g as usize].total_cmp(&solid.areas[*f as usize]).then(f.cmp(g))
         });
+        let rounded = tolerance > COPLANAR * solid.size;
         let mut of_face = vec![NONE; n as usize];
         let mut faces: Vec<Vec<u32>> = Vec::new();
-        let tolerance = COPLANAR * solid.size;
         let mut stack = Vec::new();
         for seed in seeds {
             if of_face[seed as usize] != NONE {
@@ -217,23 +254,27 @@ impl Regions {
             }
             let number = faces.len() as u32;
             let normal = solid.normals[seed as usize];
-            let offset = normal.dot(solid.centroid(seed));
-            let mut own = Vec::new();
+            let mut plane = Plane { normal, offset: normal.dot(solid.centroid(seed)) };
+            let (mut own, mut before) = (vec![seed], 0);
             of_face[seed as usize] = number;
-            stack.push(seed);
-            while let Some(f) = stack.pop() {
-                own.push(f);
-                for h in 3 * f..3 * f + 3 {
-                    let g = solid.across(h);
-                    if of_face[g as usize] != NONE {
-                        continue;
-                    }
-                    let corners = solid.mesh.corners(g);
-                    let near = corners.iter().all(|p| (normal.dot(*p) - offset).abs() < tolerance);
-                    let same_side = solid.normals[g as usize].dot(normal) > 0.5;
-                    if near && same_side && is_turned_little(solid, g, normal, &corners, tolerance) {
-                        of_face[g as usize] = number;
-                        stack.push(g);
+            // What is rounded much has a better plane the more of it is known.
+            for _ in 0..if rounded { REFITS } else { 1 } {
+                if own.len() == before {
+                    break;
+                }
+                if before > 0 {
+                    plane = fitted_plane(solid, &own);
+                }
+                before = own.len();
+                stack.append(&mut own);
+                while let Some(f) = stack.pop() {
+                    own.push(f);
+                    for h in 3 * f..3 * f + 3 {
+                        let g = solid.across(h);
+                        if of_face[g as usize] == NONE && is_in_plane(solid, g, &plane, tolerance, rounded) {
+                            of_face[g as usize] = number;
+                            stack.push(g);
+                        }
                     }
                 }
             }
@@ -400,6 +441,15 @@ impl Regions {
     }
 }
 
+/// Whether a face lies in a plane. Where coordinates are rounded, needles may be turned over.
+fn is_in_plane(solid: &Solid, f: u32, plane: &Plane, tolerance: f64, rounded: bool) -> bool {
+    let corners = solid.mesh.corners(f);
+    let near = corners.iter().all(|p| plane.height(*p).abs() < tolerance);
+    let same_side = || solid.normals[f as usize].dot(plane.normal) > 0.5;
+    let is_needle = || rounded && 2.0 * solid.areas[f as usize] < 2.0 * tolerance * longest_side(&corners);
+    near && (is_needle() || same_side() && is_turned_little(solid, f, plane.normal, &corners, tolerance))
+}
+
 /// Whether a face has about the given normal. One as thin as the tolerance may stand at any angle and still be near.
 fn is_turned_little(solid: &Solid, f: u32, normal: DVec3, corners: &[DVec3; 3], tolerance: f64) -> bool {
     let turn = solid.normals[f as usize].cross(normal).length_squared();
@@ -414,8 +464,8 @@ fn longest_side([a, b, c]: &[DVec3; 3]) -> f64 {
     a.distance(*b).max(b.distance(*c)).max(c.distance(*a))
 }
 
-/// About how wide some faces are: area over diameter.
-fn width(solid: &Solid, faces: &[u32]) -> f64 {
+/// About how wide some faces are, in mm: area over diameter.
+pub(super) fn width(solid: &Solid, faces: &[u32]) -> f64 {
     let (mut lo, mut hi) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let mut area = 0.0;
     for &f in faces {

@@ -66,6 +66,20 @@ impl Solid {
         Ok(Self { mesh, caster, adjacency, normals, areas, size, volume })
     }
 
+    /// The same faces with nodes in other places; `None` if they would cross each other.
+    pub(super) fn with_nodes_at(&self, positions: Vec<DVec3>) -> Option<Self> {
+        let mesh = TriMesh::new(positions, self.mesh.faces.clone());
+        let crossings = Crossings::new(&mesh);
+        if !crossings.self_crossing().is_empty() {
+            return None;
+        }
+        let caster = crossings.caster(&mesh);
+        let adjacency = Adjacency::new(&mesh);
+        let (normals, areas) = normals_and_areas(&mesh, &adjacency);
+        let volume = volume(&mesh);
+        Some(Self { mesh, caster, adjacency, normals, areas, size: self.size, volume })
+    }
+
     /// How many faces there are.
     pub(super) fn len(&self) -> u32 {
         self.mesh.faces.len() as u32
