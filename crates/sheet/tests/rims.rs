@@ -1,0 +1,148 @@
+//! Walls end where their rims do, however these are rounded.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod rim_support;
+#[allow(dead_code, reason = "shared by test files")]
+mod solid_models;
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use mesh_kernel::TriMesh;
+use rim_support::{
+    area, bracket, circle, half_rounded_rim, outline, plate, plate_with_hole, rounded_rim, tube,
+};
+use sheet::deflate::{DeflateOptions, Deflated, Nobody, deflate};
+use solid_models::{prism, revolved, turned};
+
+fn deflated(solid: &TriMesh) -> Deflated {
+    deflate(solid, &DeflateOptions::default(), &Nobody).unwrap()
+}
+
+#[track_caller]
+fn near(value: f64, wanted: f64, relative: f64, what: &str) {
+    assert!((value - wanted).abs() <= relative * wanted.abs(), "{what}: {value} is not {wanted}");
+}
+
+/// Patches, joints, free loops, parts; no crossings.
+#[track_caller]
+fn has_topology(thin: &Deflated, wanted: [usize; 4], what: &str) {
+    let r = &thin.report;
+    assert_eq!([r.patches, r.joints, r.free_loops, r.components], wanted, "{what}: {r:?}");
+    assert_eq!((r.self_intersections, r.lost_edges), (0, 0), "{what}");
+}
+
+/// Sheet times thickness as a share of the solid.
+fn volume_share(thin: &Deflated) -> f64 {
+    let sheet: f64 =
+        (0..).zip(&thin.thickness).map(|(f, t)| thin.sheet.area_normal(f).length() / 2.0 * t).sum();
+    sheet / thin.report.solid_volume
+}
+
+/// Radius and chords of the rounds of a rim 4 thick; one chord is a chamfer.
+const RIMS: [(f64, u32); 4] = [(0.5, 6), (0.5, 1), (1.9, 6), (1.9, 12)];
+
+#[test]
+fn a_plate_ends_at_its_outline() {
+    let shape = |inward| outline([80.0, 50.0], 8.0, 8, inward);
+    let wanted = area(&shape(0.0));
+    for (radius, chords) in RIMS {
+        let what = format!("rounds {radius} in {chords}");
+        let solid = plate(shape, &rounded_rim(4.0, radius, chords));
+        for solid in [&solid, &turned(&solid)] {
+            let thin = deflated(solid);
+            has_topology(&thin, [1, 0, 1, 1], &what);
+            near(thin.report.area, wanted, 1e-3, &what);
+            near(volume_share(&thin), 1.0, 0.05, &what);
+        }
+    }
+}
+
+#[test]
+fn a_hole_begins_at_its_edge() {
+    let shape = |inward| outline([80.0, 50.0], 8.0, 8, inward);
+    let nodes = shape(0.0).len() as u32;
+    let wanted = area(&shape(0.0)) - area(&circle(10.0, nodes));
+    for (radius, chords) in RIMS {
+        let what = format!("rounds {radius} in {chords}");
+        let thin = deflated(&plate_with_hole(shape, 10.0, &rounded_rim(4.0, radius, chords)));
+        has_topology(&thin, [1, 0, 2, 1], &what);
+        near(thin.report.area, wanted, 1e-3, &what);
+        near(volume_share(&thin), 1.0, 0.05, &what);
+    }
+}
+
+#[test]
+fn a_rib_goes_up_to_its_top() {
+    for (radius, chords) in [(2.0, 8), (1.9, 8), (0.5, 4), (0.5, 1)] {
+        // A rib 4 thick on a bar 4 thick, 42 high.
+        let mut profile = vec![[-30., -2.], [30., -2.], [30., 2.], [2., 2.]];
+        let top = rounded_rim(4.0, radius, chords);
+        // A full round has one node on top.
+        let mut top: Vec<[f64; 2]> = top.iter().map(|[d, z]| [-z, 42.0 - d]).collect();
+        top.dedup_by(|a, b| (a[0] - b[0]).hypot(a[1] - b[1]) < 1e-9);
+        profile.extend(top);
+        profile.extend([[-2., 2.], [-30., 2.]]);
+        for cells in [1, 8] {
+            let what = format!("rounds {radius} in {chords}, {cells} cells");
+            let thin = deflated(&prism(&profile, 50.0, cells));
+            has_topology(&thin, [3, 1, 2, 1], &what);
+            let top = thin.sheet.positions.iter().map(|p| p.y).fold(f64::MIN, f64::max);
+            near(top, 42.0, 1e-3, &what);
+            near(thin.report.area, 50.0 * (60.0 + 42.0), 1e-3, &what);
+        }
+    }
+}
+
+#[test]
+fn a_tube_is_as_long_as_it_was_with_rounded_rims() {
+    for (radius, chords) in [(0.5, 4), (0.5, 1), (0.95, 8)] {
+        let what = format!("rounds {radius} in {chords}");
+        let rim = rounded_rim(2.0, radius, chords);
+        let below = rim.iter().map(|[d, z]| [20.0 + z, *d]);
+        let above = rim.iter().rev().map(|[d, z]| [20.0 + z, 50.0 - d]);
+        let profile: Vec<[f64; 2]> = below.chain(above).collect();
+        let thin = deflated(&revolved(&profile, 72, true));
+        has_topology(&thin, [1, 0, 2, 1], &what);
+        near(thin.report.area, TAU * 20.0 * 50.0, 3e-3, &what);
+    }
+}
+
+#[test]
+fn long_facets_of_a_tube_leave_the_sheet_within_it() {
+    for (inner, outer) in [(24, 24), (24, 36), (40, 26)] {
+        for slope in [0.0, 0.6] {
+            let what = format!("{inner} in {outer} facets, slope {slope}");
+            let thin =
+                deflated(&tube((19.0, inner), (21.0, outer), |[x, y]| 80.0 + slope * x + 0.2 * slope * y));
+            has_topology(&thin, [1, 0, 2, 1], &what);
+            let centres = (0..thin.sheet.faces.len() as u32).map(|f| {
+                let [a, b, c] = thin.sheet.corners(f);
+                (a + b + c) / 3.0
+            });
+            for p in thin.sheet.positions.iter().copied().chain(centres) {
+                let r = p.x.hypot(p.y);
+                assert!(19.0 < r && r < 21.0, "{what}: {p} is {r} from the axis");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_bracket_rounded_on_one_side_is_one_wall() {
+    let is_whole = |radius: f64, rim: &[[f64; 2]], beside: bool, what: &str| {
+        let thin = deflated(&bracket(40.0, radius, 12, 50.0, rim, beside));
+        has_topology(&thin, [1, 0, 1, 1], what);
+        near(thin.report.area, 50.0 * (2.0 * 40.0 + FRAC_PI_2 * radius), 1e-3, what);
+    };
+    for radius in [3.0, 5.0, 10.0] {
+        for (round, chords) in [(0.5, 1), (0.5, 5), (0.8, 5)] {
+            let what = format!("rounds {round} in {chords}, bend {radius}");
+            let inside = half_rounded_rim(2.0, round, chords);
+            let outside: Vec<[f64; 2]> = inside.iter().rev().map(|[d, w]| [*d, -w]).collect();
+            is_whole(radius, &inside, false, &format!("{what}, inside"));
+            is_whole(radius, &outside, false, &format!("{what}, outside"));
+            is_whole(radius, &rounded_rim(2.0, round, chords), false, &what);
+        }
+        is_whole(radius, &rounded_rim(2.0, 0.5, 1), true, &format!("chamfers all around, bend {radius}"));
+    }
+}
