@@ -108,6 +108,23 @@ fn ribs_on_both_sides_of_a_wall_are_cut_into_it() {
 }
 
 #[test]
+fn a_thick_base_below_thin_fins_is_a_wall() {
+    // A heat sink: a base of 60 and seven fins of 1.2, whose thickness tells nothing of the base's.
+    let (base, fin, top) = (5.0, 1.2, 30.0);
+    let mut profile = vec![[0.0, 0.0], [60.0, 0.0], [60.0, base]];
+    for k in (0..7).rev() {
+        let x = 4.0 + 8.0 * f64::from(k);
+        profile.extend([[x + fin, base], [x + fin, top], [x, top], [x, base]]);
+    }
+    profile.push([0.0, base]);
+    let thin = deflated(&prism(&profile, 40.0, 1));
+    assert_eq!((thin.report.joints, thin.report.components), (7, 1));
+    near(thin.report.area, 40.0 * (60.0 + 7.0 * (top - base / 2.0)), 1e-9);
+    near(thin.report.thickness.max, base, 1e-9);
+    near(thin.report.thickness.min, fin, 1e-9);
+}
+
+#[test]
 fn turned_and_inside_out_it_is_the_same() {
     let solid = turned(&prism(&TEE, 40.0, 2));
     let thin = deflated(&solid);

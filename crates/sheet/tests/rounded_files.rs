@@ -1,6 +1,7 @@
 //! Mid-surfaces of solids whose coordinates were rounded, as files do.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+#[allow(dead_code, reason = "shared with other tests")]
 mod solid_models;
 
 use mesh_kernel::TriMesh;

@@ -56,6 +56,8 @@ pub struct DeflateFileReport {
     pub walls: Vec<WallPair>,
 }
 
+/// Corners and fillets are counted twice or not at all; a volume that is off by more than this share tells of a fault.
+const VOLUME_OFF: f64 = 0.12;
 /// Faces without a partner named in warnings; JSON has all.
 const NAMED: usize = 5;
 
@@ -85,12 +87,18 @@ impl DeflateFileReport {
             paired_share: report.paired_share,
             steps: report.steps,
             self_intersections: report.self_intersections,
-            volume_ratio: report.thickness.mean * report.area / report.solid_volume,
+            volume_ratio: volume_ratio(deflated),
             unpaired: report.unpaired.clone(),
             skin: report.faces.clone(),
             walls: report.wall_pairs.clone(),
         }
     }
+}
+
+/// Area times thickness over the volume of the solid.
+fn volume_ratio(deflated: &Deflated) -> f64 {
+    let report = &deflated.report;
+    report.thickness.mean * report.area / report.solid_volume
 }
 
 fn warnings(deflated: &Deflated) -> Vec<String> {
@@ -117,6 +125,18 @@ fn warnings(deflated: &Deflated) -> Vec<String> {
         warnings.push(format!(
             "{} edges of outlines cross others and were left out; look for gaps there",
             report.lost_edges
+        ));
+    }
+    let ratio = volume_ratio(deflated);
+    if (ratio - 1.0).abs() > VOLUME_OFF {
+        let about = if ratio < 1.0 {
+            "some walls are missing or much of it is not thin (see --max-thickness)"
+        } else {
+            "some walls are there twice or go on too far"
+        };
+        warnings.push(format!(
+            "the mid-surface with its thickness has {:.0} % of the solid's volume: {about}",
+            100.0 * ratio
         ));
     }
     if report.components > 1 {

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::DeflateOptions;
 use super::faces::{Face, Faces};
 use super::report::WallPair;
-use super::segments::{SHARP, Segments};
+use super::segments::{SHARP, Segments, width};
 use super::shape::Shape;
 use super::solid::Solid;
 
@@ -26,6 +26,11 @@ const NEARLY_ALL: f64 = 0.9;
 const SMALL_GAP: f64 = 1.6;
 /// A thickness told from the solid is no more than this share of how far its walls reach.
 const SLENDER: f64 = 0.35;
+/// A plane wall is a plate whatever the others are if it has this share of the skin, is less thick than this share of its width,
+/// and evenly so up to this share.
+const PLATE: f64 = 0.02;
+const FLAT: f64 = 0.2;
+const PLATE_ALIKE: f64 = 0.2;
 /// A flare meets the wall that it runs into at less than this, in radians.
 const OBLIQUE: f64 = 70.0 / 180.0 * std::f64::consts::PI;
 /// Facets lean by no more than the folds about them and this, in radians, where their walls are parallel.
@@ -146,7 +151,10 @@ impl Walls {
                 .map(|hit| (segments.of(hit.face), hit.distance)),
         };
         let mut looks: Vec<Look> = walls.casts.par_iter().map(look).collect();
-        walls.max_thickness = options.max_thickness.unwrap_or_else(|| told_thickness(&looks, total));
+        walls.max_thickness = options.max_thickness.unwrap_or_else(|| {
+            let told = told_thickness(&looks, total);
+            thick_plates(solid, segments, &looks, total).fold(told, f64::max)
+        });
         for look in &mut looks {
             look.seen = look.seen.filter(|(_, s)| *s <= walls.max_thickness);
         }
@@ -429,6 +437,42 @@ fn told_thickness(looks: &[Look], area: f64) -> f64 {
     }
     // Walls that are seen from both sides cover half of the skin.
     (1.02 * largest).min(SLENDER * (area / 2.0).sqrt())
+}
+
+/// How thick plane walls are that are much broader than thick and not just a trifle of the skin, whatever the rest is: the base
+/// below thin fins.
+fn thick_plates<'a>(
+    solid: &'a Solid,
+    segments: &'a Segments,
+    looks: &[Look],
+    area: f64,
+) -> impl Iterator<Item = f64> + 'a {
+    let mut seen: Vec<(u32, f64, f64)> = looks
+        .iter()
+        .filter_map(|l| {
+            let (partner, thickness) = l.seen?;
+            let planes = [l.group, partner].iter().all(|g| segments.group(*g).plane.is_some());
+            planes.then_some((l.group, thickness, l.area))
+        })
+        .collect();
+    seen.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let plate = |run: &[(u32, f64, f64)]| {
+        let all: f64 = run.iter().map(|r| r.2).sum();
+        let mut sum = 0.0;
+        let middle = run.iter().find(|r| {
+            sum += r.2;
+            sum >= all / 2.0
+        })?;
+        let alike = run.iter().filter(|r| (r.1 - middle.1).abs() < PLATE_ALIKE * middle.1);
+        (alike.map(|r| r.2).sum::<f64>() >= 0.5 * segments.group(run[0].0).area)
+            .then_some((run[0].0, middle.1))
+    };
+    let plates: Vec<(u32, f64)> = seen.chunk_by(|a, b| a.0 == b.0).filter_map(plate).collect();
+    plates.into_iter().filter_map(move |(g, thickness)| {
+        let group = segments.group(g);
+        let is_large = group.area >= PLATE * area;
+        (is_large && thickness < FLAT * width(solid, &group.faces)).then_some(1.02 * thickness)
+    })
 }
 
 fn pairs_of(looks: &[Look]) -> Vec<Pair> {
