@@ -132,9 +132,11 @@ fn steps(
         let mut beside: BTreeSet<u32> = BTreeSet::new();
         for &f in &group.faces {
             let others = (3 * f..3 * f + 3).map(|h| segments.of(solid.across(h)));
-            beside.extend(others.filter(|o| kept[*o as usize]));
+            beside.extend(others);
         }
-        if beside.len() < 2 {
+        let is_end = is_end(walls, &beside);
+        beside.retain(|o| kept[*o as usize]);
+        if beside.len() < 2 || is_end {
             continue;
         }
         // Twice the area that is left, and its outline.
@@ -163,6 +165,11 @@ fn steps(
     found
 }
 
+/// Whether a face beside some groups is the end of walls: what reaches from a wall to its partner is the end of both.
+fn is_end(walls: &Walls, beside: &BTreeSet<u32>) -> bool {
+    beside.iter().any(|o| walls.partners(*o).iter().any(|p| beside.contains(&p.partner)))
+}
+
 /// Curved faces without a partner that stand between two middles: the side of a blind hole.
 fn round_steps(
     solid: &Solid,
@@ -182,8 +189,7 @@ fn round_steps(
         }
         let sides = group.faces.iter().flat_map(|f| 3 * f..3 * f + 3);
         let mut beside: BTreeSet<u32> = sides.map(|h| segments.of(solid.across(h))).collect();
-        // What reaches from a wall to its partner is the end of both.
-        if beside.iter().any(|o| walls.partners(*o).iter().any(|p| beside.contains(&p.partner))) {
+        if is_end(walls, &beside) {
             return false;
         }
         beside.retain(|o| kept[*o as usize]);

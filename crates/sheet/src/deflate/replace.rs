@@ -17,6 +17,10 @@ use super::walls::Walls;
 const MEETING: f64 = 0.03;
 /// The same for the plane of an end face.
 const MEETING_END: f64 = 0.3;
+/// The same for facets: a chamfer slants by more, a hole that is drilled askew by less.
+const SLANTING: f64 = 0.6;
+/// An end turns by less than this from where it begins to its middle, in radians.
+const GOES_ON: f64 = 20.0 / 180.0 * std::f64::consts::PI;
 /// Cosine of the angle between a wall and a face that runs into it at less than that.
 const PARALLEL_END: f64 = 0.954;
 /// A face stands upright on a wall if the cosine of the angle between them is less than this.
@@ -232,7 +236,7 @@ impl<'a> Replacement<'a> {
             let lean = |wall: &Plane| wall.normal.dot(normal).abs();
             let leans = wanted.walls.iter().map(lean).chain(wanted.facets.iter().map(|w| lean(&w.0)));
             let lean = leans.fold(0.0, f64::max);
-            slants |= lean > UPRIGHT;
+            slants |= lean > SLANTING;
             // What is nearly parallel to the wall is not its end.
             if lean < PARALLEL_END && self.solid.areas[f as usize] >= 0.2 * trifle {
                 facets.push((Plane { normal, offset: normal.dot(p) }, self.angle(corner)));
@@ -280,7 +284,13 @@ impl<'a> Replacement<'a> {
             let hit = self.walls.first(solid, middle, normal)?;
             let leaves = solid.normals[hit.face as usize].dot(normal) > 0.0;
             let on_wall = self.walls.is_wall[self.segments.of(hit.face) as usize];
-            (leaves && !on_wall).then(|| Plane { normal, offset: normal.dot(middle) + hit.distance })
+            // One that goes on as it begins at the node is told better by its own planes.
+            let goes_on = self.star.of(at).iter().map(|c| c / 3).any(|f| {
+                let same = self.segments.of(f) == group;
+                same && solid.normals[f as usize].dot(solid.normals[hit.face as usize]) > GOES_ON.cos()
+            });
+            (leaves && !on_wall && !goes_on)
+                .then(|| Plane { normal, offset: normal.dot(middle) + hit.distance })
         };
         directions.into_iter().filter_map(end).collect()
     }

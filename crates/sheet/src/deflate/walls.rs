@@ -35,6 +35,8 @@ const PLATE_ALIKE: f64 = 0.2;
 const OBLIQUE: f64 = 70.0 / 180.0 * std::f64::consts::PI;
 /// Facets lean by no more than the folds about them and this, in radians, where their walls are parallel.
 const FLARE: f64 = 5.0 / 180.0 * std::f64::consts::PI;
+/// A rim turns away from its walls until the cosine to the direction away from them is this.
+const TURNED: f64 = 0.5;
 /// Faces belong to a rim if they are within this share of the thickness of it.
 const RIM: f64 = 0.1;
 /// Looks beside a border begin this share of the way from it to the middle of the face.
@@ -299,7 +301,7 @@ impl Walls {
             // A fillet runs along another wall, and is narrow.
             let area: f64 = part.iter().map(|f| solid.areas[*f as usize]).sum();
             let is_flare = border > 0.0 && area < self.max_thickness * border;
-            let is_rim = !is_flare && self.is_rim(solid, segments, &looks_past, &sides, &ends);
+            let is_rim = !is_flare && self.is_rim(solid, segments, &looks_past, &part, &sides, &ends);
             if is_rim {
                 self.widen(solid, segments, &mut part, &mut seen);
             }
@@ -318,6 +320,7 @@ impl Walls {
         solid: &Solid,
         segments: &Segments,
         looks_past: &[bool],
+        part: &[u32],
         sides: &[u32],
         ends: &BTreeSet<u32>,
     ) -> bool {
@@ -327,6 +330,10 @@ impl Walls {
             let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
             // The side runs against the face beyond it.
             let away = (a - b).cross(normal).normalize_or_zero();
+            // What does not turn just has nothing opposite: a hole, or one drilled askew.
+            if !part.iter().any(|f| solid.normals[*f as usize].dot(away) > TURNED) {
+                return false;
+            }
             let from = a.midpoint(b).lerp(solid.centroid(beyond), INSET);
             let Some(opposite) = self.first(solid, from, -normal) else { return false };
             let hit = self.first(solid, from - normal * (opposite.distance / 2.0), away);
