@@ -18,6 +18,8 @@ fn single(x: f64) -> f64 {
     f64::from(x as f32)
 }
 
+type Rounding = fn(DVec3) -> DVec3;
+
 /// In a car's coordinates in single precision.
 fn far_away(p: DVec3) -> DVec3 {
     (p + DVec3::new(2500.0, 600.0, 800.0)).map(single)
@@ -46,7 +48,7 @@ const TEE: [[f64; 2]; 10] = [
 ];
 
 /// Walls stand askew to all axes, so that every coordinate is rounded.
-fn askew(solid: &TriMesh, rounded: fn(DVec3) -> DVec3) -> TriMesh {
+fn askew(solid: &TriMesh, rounded: Rounding) -> TriMesh {
     let turn = DQuat::from_euler(EulerRot::XYZ, 0.7, -0.4, 1.1);
     TriMesh::new(solid.positions.iter().map(|p| rounded(turn * *p)).collect(), solid.faces.clone())
 }
@@ -60,7 +62,7 @@ fn files_that_round_have_the_same_middles() {
         ("box with a partition", cells),
         ("plate", plate_with_hole(80.0, 50.0, 3.0, 8.0, 24)),
     ];
-    let ways: [(&str, fn(DVec3) -> DVec3); 3] =
+    let ways: [(&str, Rounding); 3] =
         [("far away", far_away), ("three decimals", three_decimals), ("six digits", six_digits)];
     for (name, solid) in &solids {
         let exact = deflated(&askew(solid, |p| p)).report;

@@ -25,6 +25,8 @@ pub(super) struct Belongs {
 
 /// Faces that lie farther away than this many times the nearest wall are not blended there.
 const AS_NEAR: f64 = 1.2;
+/// The same for walls, which are beside each other along a whole corner.
+const AS_NEAR_WALL: f64 = 1.02;
 /// A blend that reaches from a wall to its partner over less than this many thicknesses is the wall's end.
 const END_WIDTH: f64 = 2.5;
 /// Walls that are blended are no farther apart than this many of the largest thickness.
@@ -211,7 +213,12 @@ impl Blends {
             let is_near_end = |r: &&&Reach| !walls.is_wall[r.1.group as usize] && r.0 <= within;
             let nearest_end = others.iter().find(is_near_end).map_or(0.0, |r| r.0);
             let ends = others.iter().filter(is_near_end).filter(|r| r.0 <= AS_NEAR * nearest_end);
-            let behind: Vec<Belongs> = wall.into_iter().chain(ends).map(|r| r.1).collect();
+            // In a corner of three walls two of them are as near.
+            let is_near_wall = |r: &&&Reach| {
+                walls.is_wall[r.1.group as usize] && wall.is_some_and(|w| r.0 <= AS_NEAR_WALL * w.0)
+            };
+            let near_walls = others.iter().filter(near).filter(is_near_wall);
+            let behind: Vec<Belongs> = near_walls.chain(ends).map(|r| r.1).collect();
             let behind = if behind.is_empty() { self.at_an_end(walls, &own, &reached) } else { behind };
             if !behind.is_empty() {
                 of_node.push((node, behind));
