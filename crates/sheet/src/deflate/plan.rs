@@ -134,7 +134,9 @@ fn steps(
             let others = (3 * f..3 * f + 3).map(|h| segments.of(solid.across(h)));
             beside.extend(others);
         }
-        let is_end = is_end(walls, &beside);
+        // Round ends that run into it have nodes that stay where they are.
+        let is_round = |o: &u32| segments.group(*o).plane.is_none() && !walls.is_wall[*o as usize];
+        let is_end = beside.iter().any(is_round) && is_end(walls, &beside, kept);
         beside.retain(|o| kept[*o as usize]);
         if beside.len() < 2 || is_end {
             continue;
@@ -165,9 +167,10 @@ fn steps(
     found
 }
 
-/// Whether a face beside some groups is the end of walls: what reaches from a wall to its partner is the end of both.
-fn is_end(walls: &Walls, beside: &BTreeSet<u32>) -> bool {
-    beside.iter().any(|o| walls.partners(*o).iter().any(|p| beside.contains(&p.partner)))
+/// Whether a face beside some groups is the end of all walls there: what reaches from a wall to its partner is the end of both.
+fn is_end(walls: &Walls, beside: &BTreeSet<u32>, kept: &[bool]) -> bool {
+    let ends = |o: &u32| walls.partners(*o).iter().any(|p| beside.contains(&p.partner));
+    beside.iter().filter(|o| kept[**o as usize]).all(ends)
 }
 
 /// Curved faces without a partner that stand between two middles: the side of a blind hole.
@@ -189,7 +192,7 @@ fn round_steps(
         }
         let sides = group.faces.iter().flat_map(|f| 3 * f..3 * f + 3);
         let mut beside: BTreeSet<u32> = sides.map(|h| segments.of(solid.across(h))).collect();
-        if is_end(walls, &beside) {
+        if is_end(walls, &beside, kept) {
             return false;
         }
         beside.retain(|o| kept[*o as usize]);
