@@ -171,7 +171,7 @@ pub(super) fn plane_regions(solid: &Solid, tolerance: f64) -> Vec<Vec<u32>> {
     regions
 }
 
-/// The plane through the nodes of faces that are nearly in one (least squares, by area); it faces as most of them do.
+/// The plane through the nodes of faces that are nearly in one (least squares, by area); it faces as the first of them.
 pub(super) fn fitted_plane(solid: &Solid, faces: &[u32]) -> Plane {
     let flat = mean_plane(solid, faces);
     let corners = || faces.iter().map(|f| (solid.mesh.corners(*f), solid.areas[*f as usize]));
