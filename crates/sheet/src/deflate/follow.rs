@@ -15,7 +15,7 @@ use super::remesh::{Diagonal, Nodes, Remesh};
 use super::segments::Segments;
 use super::solid::Solid;
 use super::twins::Twins;
-use super::walls::Walls;
+use super::walls::{FACET_LEAN, Opposite, Walls};
 
 /// An edge is split if its middle is off by more than this share of the thickness.
 const OFF: f64 = 8e-3;
@@ -53,6 +53,8 @@ const SHORT: f64 = 4.0 / 5.0;
 const INSET: f64 = 0.04;
 /// The middle is looked for within this share of the thickness.
 const FAR: f64 = 0.3;
+/// So many widths of a face from where it is met its plane still holds.
+const BESIDE: f64 = 2.0;
 /// Refinement stops at this many times the solid's faces, or of that many.
 const MOST_TIMES: usize = 6;
 const MOST_ANYWAY: usize = 5000;
@@ -79,18 +81,33 @@ pub(super) fn between(
 ) -> Option<Between> {
     let (up, down) = (walls.first(solid, p, normal)?, walls.first(solid, p, -normal)?);
     let sound = [(up.face, normal), (down.face, -normal)].into_iter().all(|(f, d)| {
-        walls.is_wall[segments.of(f) as usize]
-            && solid.normals[f as usize].dot(d) > super::walls::FACET_LEAN.cos()
+        walls.is_wall[segments.of(f) as usize] && solid.normals[f as usize].dot(d) > FACET_LEAN.cos()
     });
     let [above, below] = [up.face, down.face].map(|f| solid.normals[f as usize]);
     let far = |f: u32, n: DVec3| n.dot(solid.mesh.positions[solid.mesh.faces[f as usize][0] as usize] - p);
     let (to_above, to_below) = (far(up.face, above), far(down.face, below));
     let across = above - below;
-    let off = across * ((to_above - to_below) / across.length_squared());
-    // Along the normal of one of them, as far as it is to the middle twice.
-    let thickness = 2.0 * (to_above + to_below) / (1.0 - above.dot(below));
+    // The planes of small faces say nothing of where one does not look.
+    let seen = [(up, above, to_above, normal), (down, below, to_below, -normal)];
+    let is_beside = |(hit, n, far, d): &(Opposite, DVec3, f64, DVec3)| {
+        let corners = solid.mesh.corners(hit.face);
+        (*d * hit.distance - *n * *far).length() < BESIDE * narrow(&corners)
+    };
+    let (off, thickness) = if seen.iter().all(is_beside) {
+        // Along the normal of one of them, as far as it is to the middle twice.
+        let thickness = 2.0 * (to_above + to_below) / (1.0 - above.dot(below));
+        (across * ((to_above - to_below) / across.length_squared()), thickness)
+    } else {
+        (normal * ((up.distance - down.distance) / 2.0), up.distance + down.distance)
+    };
     (sound && thickness <= walls.max_thickness && off.length() < FAR * thickness)
         .then_some(Between { off, thickness })
+}
+
+/// The height of a triangle on its longest side.
+fn narrow([a, b, c]: &[DVec3; 3]) -> f64 {
+    let longest = a.distance(*b).max(b.distance(*c)).max(c.distance(*a));
+    (*b - *a).cross(*c - *a).length() / longest
 }
 
 /// What is needed to look at a sheet from within.

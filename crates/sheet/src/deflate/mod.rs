@@ -10,6 +10,7 @@ mod faces;
 mod features;
 mod fill;
 mod fit;
+mod flares;
 mod follow;
 mod middle;
 mod nearness;
@@ -30,6 +31,7 @@ mod straighten;
 mod thickness;
 mod topology;
 mod twins;
+mod untangle;
 mod walls;
 
 pub use error::DeflateError;
@@ -40,7 +42,6 @@ pub use shape::Shape;
 use std::collections::BTreeSet;
 
 use mesh_kernel::TriMesh;
-use mesh_kernel::query::Crossings;
 
 use assemble::{Moved, Sheet, Source, assemble};
 use blends::Blends;
@@ -58,6 +59,7 @@ use straighten::straightened;
 use thickness::thicknesses;
 use topology::Topology;
 use twins::Twins;
+use untangle::untangle;
 use walls::Walls;
 
 /// A solid is thin if this share of its skin has a partner.
@@ -173,7 +175,7 @@ pub fn deflate(
     begin(Step::Replace)?;
     let mut features = Features::new(&solid, &segments, &walls, &blends, &faces, options);
     let mut middles = Middles::new(&solid, &segments, &walls);
-    let kept = kept_groups(&solid, &segments, &walls, &blends, &middles.of_group);
+    let kept = kept_groups(&solid, &segments, &walls, &blends, &middles.of_group, false);
     for step in middles.steps(&solid, &segments, &walls, &kept) {
         let removed = features.add_step(&solid, &segments, &step, options);
         if removed || options.steps == Steps::Aligned {
@@ -189,23 +191,36 @@ pub fn deflate(
     begin(Step::Stitch)?;
     // A mesh of its own has nodes on exact middles; one that follows the facets is as thick as they are apart.
     let on_exact = options.edge_length.map(|_| &exact);
-    let stitch = |gone: &[bool]| {
+    let stitch = |(gone, kept): (&[bool], &[bool])| {
         let kept: Vec<bool> = kept.iter().zip(gone).map(|(kept, gone)| *kept && !gone).collect();
         let mut sheet = assemble(&solid, &segments, &walls, &middles, gone, &kept, &moved, options);
         follow(&mut sheet, &solid, &segments, &walls, &exact, &twins, options.edge_length);
-        let thickness = thicknesses(&sheet, &solid, &segments, &walls, &middles, &corners, on_exact);
-        let patched = patched(&sheet, &segments);
-        let crossing = Crossings::new(&patched.mesh).self_crossing().len();
-        (sheet, thickness, patched, crossing)
+        let crossing = untangle(&mut sheet, &solid, &segments, &walls);
+        (sheet, crossing)
     };
-    let (mut sheet, mut thickness, mut patched, mut crossing) = stitch(&features.gone);
-    if features.gone.contains(&true) && crossing + sheet.lost > 0 {
-        let with_all = stitch(&vec![false; features.gone.len()]);
-        if with_all.3 + with_all.0.lost < crossing + sheet.lost {
-            (sheet, thickness, patched, crossing) = with_all;
-            features.undo();
+    let (mut sheet, mut crossing) = stitch((&features.gone, &kept));
+    // What comes out crossed may do better with the other sides of walls, or with what was to be removed.
+    let others = kept_groups(&solid, &segments, &walls, &blends, &middles.of_group, true);
+    let with_all = vec![false; features.gone.len()];
+    let undone = if features.gone.contains(&true) { 2 } else { 0 };
+    let others = [(&features.gone, &others), (&with_all, &kept), (&with_all, &others)];
+    let mut undo = false;
+    for (k, (gone, kept)) in others.into_iter().take(1 + undone).enumerate() {
+        let faults = crossing + sheet.lost;
+        if faults == 0 {
+            break;
+        }
+        let trial = stitch((gone, kept));
+        if trial.0.lost + trial.1 < faults {
+            (sheet, crossing) = trial;
+            undo = k > 0;
         }
     }
+    if undo {
+        features.undo();
+    }
+    let thickness = thicknesses(&sheet, &solid, &segments, &walls, &middles, &corners, on_exact);
+    let patched = patched(&sheet, &segments);
     let unpaired = unpaired(&solid, &segments, &walls, &features.gone, END_WIDTH);
     begin(Step::Measure)?;
     let thickness: Vec<f64> = patched.order.iter().map(|f| thickness[*f as usize]).collect();

@@ -55,6 +55,18 @@ pub(super) struct Nodes {
     star: Star,
 }
 
+impl Nodes {
+    /// The nodes beside one, each twice if it is inside.
+    pub(super) fn about(&self, v: u32) -> impl Iterator<Item = u32> {
+        self.faces(v).flat_map(|f| self.mesh.faces[f as usize]).filter(move |w| *w != v)
+    }
+
+    /// The faces at a node.
+    pub(super) fn faces(&self, v: u32) -> impl Iterator<Item = u32> {
+        self.star.of(v).iter().map(|c| c / 3)
+    }
+}
+
 impl Remesh<'_> {
     /// The normal that a curved face had on the solid.
     pub(super) fn normal(&self, sheet: &Sheet, f: u32) -> Option<DVec3> {

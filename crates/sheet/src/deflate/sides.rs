@@ -8,7 +8,7 @@ use super::blends::Blends;
 use super::plane::Plane;
 use super::segments::{SHARP, Segments};
 use super::solid::Solid;
-use super::walls::Walls;
+use super::walls::{Pair, Walls};
 
 /// Union–find whose members know on which of two sides they are.
 struct Parity {
@@ -52,13 +52,15 @@ impl Parity {
     }
 }
 
-/// The groups that become the mid-surface: of each pair of walls one. O(n log n).
+/// The groups that become the mid-surface: of each pair of walls one. With `other`, the other one where it would hardly do worse.
+/// O(n log n).
 pub(super) fn kept_groups(
     solid: &Solid,
     segments: &Segments,
     walls: &Walls,
     blends: &Blends,
     mids: &[Vec<Plane>],
+    other: bool,
 ) -> Vec<bool> {
     let n = segments.groups.len();
     let mut parity = Parity::new(n);
@@ -79,6 +81,8 @@ pub(super) fn kept_groups(
     // What speaks for each side of each set.
     let mut score = vec![[0.0f64; 2]; n];
     let mut faces = vec![[0usize; 2]; n];
+    // Plane walls are to lie opposite to plane ones: their middle is a plane only there.
+    let mut bent = vec![[0.0f64; 2]; n];
     for g in (0..n as u32).filter(|g| walls.is_wall[*g as usize]) {
         let (root, side) = parity.find(g);
         let group = segments.group(g);
@@ -88,18 +92,36 @@ pub(super) fn kept_groups(
         let split = (mid_planes.max(1) - 1) as f64 * 4.0 * wide;
         score[root as usize][usize::from(side)] += creases.concave[g as usize] - split;
         faces[root as usize][usize::from(side)] += group.faces.len();
+        if group.plane.is_some() {
+            let curved = |p: &&Pair| segments.group(p.partner).plane.is_none();
+            bent[root as usize][usize::from(side)] +=
+                walls.partners(g).iter().filter(curved).map(|p| p.area).sum::<f64>();
+        }
     }
     (0..n as u32)
         .map(|g| {
             let (root, side) = parity.find(g);
             let ([a, b], [few, many]) = (score[root as usize], faces[root as usize]);
-            let tolerance = 1e-6 * solid.size;
-            let second = if (a - b).abs() > tolerance { b > a } else { many < few };
+            let [p, q] = bent[root as usize];
+            let second = if (a - b).abs() > DIFFERENT * walls.max_thickness {
+                b > a
+            } else if (p - q).abs() > MUCH * (p + q) {
+                q < p
+            } else {
+                many < few
+            };
+            let second = second != (other && (a - b).abs() < HARDLY * walls.max_thickness);
             walls.is_wall[g as usize] && side == second
         })
         .collect()
 }
 
+/// Creases of two sides differ if their lengths do by this many thicknesses.
+const DIFFERENT: f64 = 0.1;
+/// Or hardly, if by less than so many.
+const HARDLY: f64 = 10.0;
+/// One side has more plane walls opposite to curved ones than the other, if by this share of them.
+const MUCH: f64 = 0.01;
 /// A pair that covers less than this share of the smaller group only touches.
 const TOUCHED: f64 = 0.1;
 

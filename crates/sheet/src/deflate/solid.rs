@@ -102,6 +102,19 @@ impl Solid {
         self.normals[h as usize / 3].dot(self.normals[self.across(h) as usize])
     }
 
+    /// The length of a side, in mm.
+    pub(super) fn length(&self, h: u32) -> f64 {
+        let [a, b] = self.adjacency.ends(h).map(|v| self.mesh.positions[v as usize]);
+        a.distance(b)
+    }
+
+    /// The length of a side times the angle by which its faces bend away from each other, or if less than nothing, towards each
+    /// other; in mm and radians.
+    pub(super) fn bend(&self, h: u32) -> f64 {
+        let bend = self.length(h) * self.fold_cosine(h).clamp(-1.0, 1.0).acos();
+        if self.is_convex(h) { bend } else { -bend }
+    }
+
     /// Whether material fills less than half of the space about a side: its faces bend away from each other.
     pub(super) fn is_convex(&self, h: u32) -> bool {
         let other = self.across(h);

@@ -1,15 +1,10 @@
 //! Which groups are walls, and which groups lie opposite to each other (Sheen et al. 2008, section 6.1).
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use glam::DVec3;
 use rayon::prelude::*;
 
 use super::DeflateOptions;
-use super::faces::{Face, Faces};
-use super::report::WallPair;
 use super::segments::{SHARP, Segments, width};
-use super::shape::Shape;
 use super::solid::Solid;
 
 /// Facets of curved walls that lie opposite to each other may be inclined by this much, in radians: both are chords.
@@ -31,16 +26,6 @@ const SLENDER: f64 = 0.35;
 const PLATE: f64 = 0.02;
 const FLAT: f64 = 0.2;
 const PLATE_ALIKE: f64 = 0.2;
-/// A flare meets the wall that it runs into at less than this, in radians.
-const OBLIQUE: f64 = 70.0 / 180.0 * std::f64::consts::PI;
-/// Facets lean by no more than the folds about them and this, in radians, where their walls are parallel.
-const FLARE: f64 = 5.0 / 180.0 * std::f64::consts::PI;
-/// A rim turns away from its walls until the cosine to the direction away from them is this.
-const TURNED: f64 = 0.5;
-/// Faces belong to a rim if they are within this share of the thickness of it.
-const RIM: f64 = 0.1;
-/// Looks beside a border begin this share of the way from it to the middle of the face.
-const INSET: f64 = 0.05;
 /// Walls are thicker than this share of what walls are on the whole.
 const HAIR: f64 = 0.03;
 /// Walls are wider than this share of it.
@@ -85,6 +70,8 @@ pub(super) struct Walls {
     pub(super) pairs: Vec<Pair>,
     /// Whether each group is a wall.
     pub(super) is_wall: Vec<bool>,
+    /// Whether the skin is proud about each face: its smooth edges bend away from each other.
+    is_proud: Vec<bool>,
     /// Share of the skin that has a partner.
     pub(super) paired_share: f64,
 }
@@ -114,6 +101,7 @@ impl Walls {
             max_draft: options.max_draft,
             pairs: Vec::new(),
             is_wall: Vec::new(),
+            is_proud: is_proud(solid),
             paired_share: 0.0,
         };
         let cell = solid.areas.iter().sum::<f64>() / SAMPLES;
@@ -229,12 +217,14 @@ impl Walls {
 
     /// Whether a face that is seen from another one through the material faces it.
     fn faces_back(&self, solid: &Solid, segments: &Segments, f: u32, seen: u32) -> bool {
-        let planes = [f, seen].map(|f| segments.group(segments.of(f)).plane);
-        let lean = if planes.iter().all(Option::is_none) {
-            FACET_LEAN
-        } else {
+        let is_plane = [f, seen].map(|f| segments.group(segments.of(f)).plane.is_some());
+        let lean = match is_plane {
+            [false, false] => FACET_LEAN,
+            // What is round outside of a corner has walls opposite; a fillet looks at one by chance.
+            [false, true] if self.is_proud[f as usize] => FACET_LEAN,
+            [true, false] if self.is_proud[seen as usize] => FACET_LEAN,
             // Both lean by half of the draft; a curved face next to a plane one is seen through its chords.
-            self.max_draft.max(SMALLEST_LEAN)
+            _ => self.max_draft.max(SMALLEST_LEAN),
         };
         solid.normals[seen as usize].dot(-solid.normals[f as usize]) >= lean.cos()
     }
@@ -244,169 +234,12 @@ impl Walls {
         let hit = solid.caster.first(p, direction, START * solid.size, self.max_thickness)?;
         Some(Opposite { face: hit.face, distance: hit.distance })
     }
-
-    /// Where curved walls flare into fillets: sets of faces at their borders that look past the opposite wall. Smooth facets hide
-    /// where a wall ends and a fillet begins; what is opposite tells.
-    pub(super) fn flares(&self, solid: &Solid, segments: &Segments) -> Vec<Vec<u32>> {
-        let fold = |f: u32| {
-            let cosines = (3 * f..3 * f + 3).map(|h| solid.fold_cosine(h)).filter(|c| *c > SHARP.cos());
-            cosines.fold(1.0, f64::min).clamp(-1.0, 1.0).acos()
-        };
-        let curved = |f: u32| {
-            let g = segments.of(f);
-            self.is_wall[g as usize] && segments.group(g).plane.is_none()
-        };
-        let looks_past: Vec<bool> = (0..solid.len())
-            .into_par_iter()
-            .map(|f| {
-                if !curved(f) {
-                    return false;
-                }
-                let opposite = self.opposite_middle(solid, segments, f);
-                let Some(opposite) = opposite else { return true };
-                let lean = solid.normals[f as usize].dot(-solid.normals[opposite.face as usize]);
-                let allowed = fold(f).max(fold(opposite.face)) + FLARE;
-                lean < allowed.cos()
-            })
-            .collect();
-        let mut seen = vec![false; solid.len() as usize];
-        let mut found = Vec::new();
-        for seed in (0..solid.len()).filter(|f| looks_past[*f as usize]) {
-            if seen[seed as usize] {
-                continue;
-            }
-            let (g, mut part, mut at) = (segments.of(seed), vec![seed], 0);
-            seen[seed as usize] = true;
-            let (mut border, mut sides, mut ends) = (0.0, Vec::new(), BTreeSet::new());
-            while at < part.len() {
-                for h in 3 * part[at]..3 * part[at] + 3 {
-                    let other = solid.across(h);
-                    let to = segments.of(other);
-                    if to != g && self.is_wall[to as usize] && solid.fold_cosine(h) > OBLIQUE.cos() {
-                        border += length_of(solid, h);
-                    }
-                    if to == g && looks_past[other as usize] {
-                        if !seen[other as usize] {
-                            seen[other as usize] = true;
-                            part.push(other);
-                        }
-                    } else if self.is_wall[to as usize] {
-                        sides.push(h);
-                    } else {
-                        ends.insert(to);
-                    }
-                }
-                at += 1;
-            }
-            // A fillet runs along another wall, and is narrow.
-            let area: f64 = part.iter().map(|f| solid.areas[*f as usize]).sum();
-            let is_flare = border > 0.0 && area < self.max_thickness * border;
-            let is_rim = !is_flare && self.is_rim(solid, segments, &looks_past, &part, &sides, &ends);
-            if is_rim {
-                self.widen(solid, segments, &mut part, &mut seen);
-            }
-            if is_flare || is_rim {
-                part.sort_unstable();
-                found.push(part);
-            }
-        }
-        found
-    }
-
-    /// Whether what looks past the opposite wall is the round end of the walls beyond its sides: halfway between these and what is
-    /// opposite, one leaves the material through such faces, or through the ends that they touch.
-    fn is_rim(
-        &self,
-        solid: &Solid,
-        segments: &Segments,
-        looks_past: &[bool],
-        part: &[u32],
-        sides: &[u32],
-        ends: &BTreeSet<u32>,
-    ) -> bool {
-        let ends_here = |h: u32| {
-            let Some(beyond) = solid.adjacency.partner(h).map(|k| k / 3) else { return false };
-            let normal = solid.normals[beyond as usize];
-            let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
-            // The side runs against the face beyond it.
-            let away = (a - b).cross(normal).normalize_or_zero();
-            // What does not turn just has nothing opposite: a hole, or one drilled askew.
-            if !part.iter().any(|f| solid.normals[*f as usize].dot(away) > TURNED) {
-                return false;
-            }
-            let from = a.midpoint(b).lerp(solid.centroid(beyond), INSET);
-            let Some(opposite) = self.first(solid, from, -normal) else { return false };
-            let hit = self.first(solid, from - normal * (opposite.distance / 2.0), away);
-            hit.is_some_and(|hit| looks_past[hit.face as usize] || ends.contains(&segments.of(hit.face)))
-        };
-        let length = |all: &mut dyn Iterator<Item = u32>| all.map(|h| length_of(solid, h)).sum::<f64>();
-        let whole = length(&mut sides.iter().copied());
-        whole > 0.0 && length(&mut sides.iter().copied().filter(|h| ends_here(*h))) > 0.5 * whole
-    }
-
-    /// Adds the faces of the group about a rim that are within a trifle of it: the first facets of a round hardly lean.
-    fn widen(&self, solid: &Solid, segments: &Segments, part: &mut Vec<u32>, seen: &mut [bool]) {
-        let at = |v: u32| solid.mesh.positions[v as usize];
-        let nodes = part.iter().flat_map(|f| solid.mesh.faces[*f as usize]);
-        let mut reached: BTreeMap<u32, f64> = nodes.map(|v| (v, 0.0)).collect();
-        let mut k = 0;
-        while k < part.len() {
-            for h in 3 * part[k]..3 * part[k] + 3 {
-                let other = solid.across(h);
-                if seen[other as usize] || segments.of(other) != segments.of(part[k]) {
-                    continue;
-                }
-                let face = solid.mesh.faces[other as usize];
-                let how_far = |v: u32| {
-                    let by_edge = |w: &u32| reached.get(w).map(|d| d + at(*w).distance(at(v)));
-                    reached
-                        .get(&v)
-                        .copied()
-                        .unwrap_or_else(|| face.iter().filter_map(by_edge).fold(f64::INFINITY, f64::min))
-                };
-                let far = face.map(|v| (v, how_far(v)));
-                if far.iter().all(|(_, d)| *d < RIM * self.max_thickness) {
-                    reached.extend(far);
-                    seen[other as usize] = true;
-                    part.push(other);
-                }
-            }
-            k += 1;
-        }
-    }
-
-    /// Fillets that curved walls run into: hollow faces without an exact partner, beside faces of their group that have one. What is
-    /// opposite to facets of them is so by chance.
-    pub(super) fn fillets(&self, segments: &Segments, faces: &Faces, pairs: &[WallPair]) -> Vec<Vec<u32>> {
-        let mut has_partner = vec![false; faces.list.len()];
-        pairs.iter().flat_map(|p| p.faces).for_each(|f| has_partner[f] = true);
-        let group = |face: &Face| segments.of(face.triangles[0]);
-        let mut has_wall = vec![false; segments.groups.len()];
-        for (face, has_partner) in faces.list.iter().zip(&has_partner) {
-            has_wall[group(face) as usize] |= *has_partner;
-        }
-        let is_fillet = |(face, has_partner): &(&Face, &bool)| {
-            let small = match face.shape {
-                Shape::Cylinder { radius, .. } | Shape::Sphere { radius, .. } => radius < self.max_thickness,
-                Shape::Torus { minor, .. } => minor < self.max_thickness,
-                _ => false,
-            };
-            let g = group(face);
-            !**has_partner && face.concave && small && has_wall[g as usize] && self.is_wall[g as usize]
-        };
-        faces
-            .list
-            .iter()
-            .zip(&has_partner)
-            .filter(is_fillet)
-            .map(|(face, _)| face.triangles.clone())
-            .collect()
-    }
 }
 
-fn length_of(solid: &Solid, h: u32) -> f64 {
-    let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
-    a.distance(b)
+/// Whether smooth edges about each face bend away from each other on the whole. O(n).
+fn is_proud(solid: &Solid) -> Vec<bool> {
+    let bend = |h: u32| if solid.fold_cosine(h) > SHARP.cos() { solid.bend(h) } else { 0.0 };
+    (0..solid.len()).into_par_iter().map(|f| (3 * f..3 * f + 3).map(bend).sum::<f64>() > 0.0).collect()
 }
 
 /// About how many looks there are in all, beside one a face.

@@ -1,0 +1,133 @@
+//! Curved pieces that cross themselves are drawn smooth again.
+//!
+//! Where what is opposite jumps, as at the border of a fillet, nodes beside each other are put halfway to different faces and may
+//! pass each other. Drawn between the nodes about them, as a skin of soap would be, they do not; where that leaves the middle of
+//! the wall, they stay as they were.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use glam::DVec3;
+use mesh_kernel::TriMesh;
+use mesh_kernel::query::Crossings;
+
+use super::assemble::{Sheet, Source};
+use super::follow::between;
+use super::remesh::{Nodes, Remesh};
+use super::seams::Merged;
+use super::segments::Segments;
+use super::solid::Solid;
+use super::walls::Walls;
+
+/// Rings of nodes about what crosses that are drawn as well, one round after the other.
+const RINGS: [usize; 4] = [1, 2, 4, 7];
+/// Steps of drawing.
+const STEPS: usize = 80;
+/// What is drawn may be off the middle by this share of the thickness.
+const OFF: f64 = 0.1;
+/// This share of it may be so anyway.
+const ASTRAY: f64 = 0.1;
+/// Nodes hold each other as if they were at least this share of all edges apart.
+const LEAST: f64 = 1e-3;
+
+/// Draws what crosses; how many pairs of faces cross afterwards. O(n log n) a round.
+pub(super) fn untangle(sheet: &mut Sheet, solid: &Solid, segments: &Segments, walls: &Walls) -> usize {
+    let mut crossing = crossing_faces(sheet);
+    let remesh = Remesh { solid };
+    for rings in RINGS {
+        if crossing.is_empty() {
+            break;
+        }
+        let nodes = remesh.nodes(sheet);
+        let before = sheet.positions.clone();
+        for cluster in clusters(sheet, &nodes, &crossing, rings) {
+            let faces: BTreeSet<u32> = cluster.iter().flat_map(|v| nodes.faces(*v)).collect();
+            let look = |sheet: &Sheet| Extent::new(sheet, &faces, solid, segments, walls);
+            let was = look(sheet);
+            draw(sheet, &nodes, &cluster);
+            let is = look(sheet);
+            if is.area > was.area || is.astray > was.astray.max(ASTRAY) {
+                cluster.iter().for_each(|v| sheet.positions[*v as usize] = before[*v as usize]);
+            }
+        }
+        let now = crossing_faces(sheet);
+        if now.len() < crossing.len() {
+            crossing = now;
+        } else {
+            sheet.positions = before;
+        }
+    }
+    crossing.len()
+}
+
+fn crossing_faces(sheet: &Sheet) -> Vec<(u32, u32)> {
+    Crossings::new(&TriMesh::new(sheet.positions.clone(), sheet.faces.clone())).self_crossing()
+}
+
+/// Sets of nodes inside of curved pieces, within some rings of what crosses.
+fn clusters(sheet: &Sheet, nodes: &Nodes, crossing: &[(u32, u32)], rings: usize) -> Vec<Vec<u32>> {
+    let faces = crossing.iter().flat_map(|(f, g)| [*f, *g]);
+    let curved = faces.filter(|f| matches!(sheet.sources[*f as usize], Source::Facet(_)));
+    let mut near: BTreeSet<u32> = curved.flat_map(|f| sheet.faces[f as usize]).collect();
+    for _ in 0..rings {
+        let about: Vec<u32> = near.iter().flat_map(|v| nodes.about(*v)).collect();
+        near.extend(about);
+    }
+    near.retain(|v| nodes.inside[*v as usize]);
+    let mut merged = Merged::new(sheet.positions.len());
+    for &v in &near {
+        nodes.about(v).filter(|w| near.contains(w)).for_each(|w| merged.join(v, w));
+    }
+    let mut sets: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    for v in near {
+        sets.entry(merged.find(v)).or_default().push(v);
+    }
+    sets.into_values().collect()
+}
+
+/// Puts every node in the middle of those about it, over and over; the nearer ones hold it more.
+fn draw(sheet: &mut Sheet, nodes: &Nodes, cluster: &[u32]) {
+    let at = |v: u32| nodes.mesh.positions[v as usize];
+    let hold = |v: u32| {
+        let mut about: Vec<(u32, f64)> = nodes.about(v).map(|w| (w, at(v).distance(at(w)))).collect();
+        let least = LEAST * about.iter().map(|a| a.1).sum::<f64>();
+        about.iter_mut().for_each(|a| a.1 = 1.0 / a.1.max(least));
+        (v, about)
+    };
+    let holds: Vec<(u32, Vec<(u32, f64)>)> = cluster.iter().map(|v| hold(*v)).collect();
+    for _ in 0..STEPS {
+        for (v, about) in &holds {
+            let add = |(sum, all): (DVec3, f64), (w, weight): &(u32, f64)| {
+                (sum + sheet.positions[*w as usize] * *weight, all + weight)
+            };
+            let (sum, all) = about.iter().fold((DVec3::ZERO, 0.0), add);
+            if all > 0.0 {
+                sheet.positions[*v as usize] = sum / all;
+            }
+        }
+    }
+}
+
+/// How far some faces reach, and how much of them has left the middle of the wall.
+struct Extent {
+    /// In mm².
+    area: f64,
+    /// A share of it.
+    astray: f64,
+}
+
+impl Extent {
+    fn new(sheet: &Sheet, faces: &BTreeSet<u32>, solid: &Solid, segments: &Segments, walls: &Walls) -> Self {
+        let (mut area, mut astray) = (0.0, 0.0);
+        for f in faces {
+            let [a, b, c] = sheet.faces[*f as usize].map(|v| sheet.positions[v as usize]);
+            let across = (b - a).cross(c - a);
+            let own = across.length() / 2.0;
+            let seen = between(solid, segments, walls, (a + b + c) / 3.0, across.normalize_or_zero());
+            area += own;
+            if seen.is_none_or(|seen| seen.off.length() > OFF * seen.thickness) {
+                astray += own;
+            }
+        }
+        Self { area, astray: astray / f64::max(area, f64::MIN_POSITIVE) }
+    }
+}

@@ -1,0 +1,104 @@
+//! Boxes whose rounds outside and fillets inside have centres of their own: the corners are thicker or thinner than the walls.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+#[allow(dead_code, reason = "shared by test files")]
+mod solid_models;
+
+use std::collections::BTreeMap;
+use std::f64::consts::FRAC_PI_4;
+
+use mesh_kernel::TriMesh;
+use mesh_kernel::glam::DVec3;
+use sheet::deflate::{DeflateOptions, Nobody, deflate};
+use solid_models::turned;
+
+const HALF: DVec3 = DVec3::new(40.0, 30.0, 15.0);
+const WALL: f64 = 2.0;
+
+/// Where grids are cut along one axis: half a round in `chords` at the low end, and at the high end unless it is `open`.
+fn cuts(half: f64, radius: f64, chords: u32, open: bool) -> Vec<f64> {
+    let round = |k: u32| half - radius + radius * (FRAC_PI_4 * f64::from(k) / f64::from(chords)).tan();
+    let low = (0..=chords).rev().map(|k| -round(k));
+    let high = if open { vec![half] } else { (0..=chords).map(round).collect() };
+    low.chain(high).collect()
+}
+
+/// The skin of a box about the origin without its top, with round edges; and the nodes of its rim in a row.
+fn skin(half: DVec3, radius: f64, chords: u32) -> (TriMesh, Vec<u32>) {
+    let [x, y, z] =
+        [(half.x, false), (half.y, false), (half.z, true)].map(|(h, open)| cuts(h, radius, chords, open));
+    let mut mesh = TriMesh::new(Vec::new(), Vec::new());
+    let mut numbers: BTreeMap<[i64; 3], u32> = BTreeMap::new();
+    let mut node = |mesh: &mut TriMesh, q: DVec3| {
+        let straight = half - radius;
+        let core = q.clamp(-straight, DVec3::new(straight.x, straight.y, half.z));
+        let p = core + (q - core).normalize() * radius;
+        *numbers.entry(p.to_array().map(|c| (c * 1e7).round() as i64)).or_insert_with(|| {
+            mesh.positions.push(p);
+            mesh.positions.len() as u32 - 1
+        })
+    };
+    let mut grid = |mesh: &mut TriMesh, u: &[f64], v: &[f64], at: &dyn Fn(f64, f64) -> DVec3| {
+        for i in 1..u.len() {
+            for j in 1..v.len() {
+                let corners = [(i - 1, j - 1), (i, j - 1), (i, j), (i - 1, j)];
+                let [a, b, c, d] = corners.map(|(i, j)| node(mesh, at(u[i], v[j])));
+                mesh.faces.extend([[a, b, c], [a, c, d]]);
+            }
+        }
+    };
+    grid(&mut mesh, &y, &z, &|y, z| DVec3::new(half.x, y, z));
+    grid(&mut mesh, &y, &z, &|y, z| DVec3::new(-half.x, -y, z));
+    grid(&mut mesh, &x, &z, &|x, z| DVec3::new(x, -half.y, z));
+    grid(&mut mesh, &x, &z, &|x, z| DVec3::new(-x, half.y, z));
+    grid(&mut mesh, &x, &y, &|x, y| DVec3::new(-x, y, -half.z));
+    let sides = [
+        y.iter().map(|y| DVec3::new(half.x, *y, half.z)).collect::<Vec<_>>(),
+        x.iter().rev().map(|x| DVec3::new(*x, half.y, half.z)).collect(),
+        y.iter().rev().map(|y| DVec3::new(-half.x, *y, half.z)).collect(),
+        x.iter().map(|x| DVec3::new(*x, -half.y, half.z)).collect(),
+    ];
+    let mut rim: Vec<u32> = sides.concat().into_iter().map(|q| node(&mut mesh, q)).collect();
+    rim.dedup();
+    rim.pop();
+    (mesh, rim)
+}
+
+/// An open box with rounds outside and fillets inside.
+fn rounded_box(outer: f64, inner: f64, chords: u32) -> TriMesh {
+    let (mut mesh, rim) = skin(HALF, outer, chords);
+    let up = DVec3::Z * (WALL / 2.0);
+    let (within, inner_rim) = skin(HALF - DVec3::new(WALL, WALL, WALL / 2.0), inner, chords);
+    let n = mesh.positions.len() as u32;
+    mesh.positions.extend(within.positions.iter().map(|p| *p + up));
+    mesh.faces.extend(within.faces.iter().map(|[a, b, c]| [n + a, n + c, n + b]));
+    for k in 0..rim.len() {
+        let next = (k + 1) % rim.len();
+        let [a, b, c, d] = [rim[k], rim[next], n + inner_rim[next], n + inner_rim[k]];
+        mesh.faces.extend([[a, b, c], [a, c, d]]);
+    }
+    mesh
+}
+
+#[test]
+fn corners_of_other_centres_are_one_sheet() {
+    for (outer, inner, chords) in [(2.0, 1.0, 4), (3.0, 2.0, 4), (4.0, 1.0, 5), (5.0, 5.0, 3), (8.0, 7.0, 4)]
+    {
+        let what = format!("rounds {outer}, fillets {inner} in {chords}");
+        let solid = rounded_box(outer, inner, chords);
+        for solid in [&solid, &turned(&solid)] {
+            let thin = deflate(solid, &DeflateOptions::default(), &Nobody).unwrap();
+            let r = &thin.report;
+            let topology = [r.patches, r.joints, r.free_loops, r.components];
+            assert_eq!(topology, [1, 0, 1, 1], "{what}: {:?}", r.features);
+            assert_eq!((r.self_intersections, r.lost_edges), (0, 0), "{what}");
+            let sheet: f64 =
+                (0..).zip(&thin.thickness).map(|(f, t)| thin.sheet.area_normal(f).length() / 2.0 * t).sum();
+            assert!(
+                (sheet / r.solid_volume - 1.0).abs() < 0.01,
+                "{what}: {} of the volume",
+                sheet / r.solid_volume
+            );
+        }
+    }
+}
