@@ -9,6 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec3;
 use mesh_kernel::TriMesh;
 use mesh_kernel::query::Crossings;
+use rayon::prelude::*;
 
 use super::assemble::{Sheet, Source};
 use super::follow::between;
@@ -29,16 +30,15 @@ const ASTRAY: f64 = 0.1;
 /// Nodes hold each other as if they were at least this share of all edges apart.
 const LEAST: f64 = 1e-3;
 
-/// Draws what crosses; how many pairs of faces cross afterwards. O(n log n) a round.
+/// Draws what crosses; how many pairs of faces cross afterwards. O(n log n).
 pub(super) fn untangle(sheet: &mut Sheet, solid: &Solid, segments: &Segments, walls: &Walls) -> usize {
-    let mut crossing = crossing_faces(sheet);
-    let remesh = Remesh { solid };
+    let mut crossing = crossing_faces(sheet, |_| true);
+    if crossing.is_empty() {
+        return 0;
+    }
+    let mut nodes = Remesh { solid }.nodes(sheet);
     for rings in RINGS {
-        if crossing.is_empty() {
-            break;
-        }
-        let nodes = remesh.nodes(sheet);
-        let before = sheet.positions.clone();
+        let mut drawn: Vec<BTreeSet<u32>> = Vec::new();
         for cluster in clusters(sheet, &nodes, &crossing, rings) {
             let faces: BTreeSet<u32> = cluster.iter().flat_map(|v| nodes.faces(*v)).collect();
             let look = |sheet: &Sheet| Extent::new(sheet, &faces, solid, segments, walls);
@@ -46,21 +46,53 @@ pub(super) fn untangle(sheet: &mut Sheet, solid: &Solid, segments: &Segments, wa
             draw(sheet, &nodes, &cluster);
             let is = look(sheet);
             if is.area > was.area || is.astray > was.astray.max(ASTRAY) {
-                cluster.iter().for_each(|v| sheet.positions[*v as usize] = before[*v as usize]);
+                cluster.iter().for_each(|v| sheet.positions[*v as usize] = nodes.mesh.positions[*v as usize]);
+            } else {
+                drawn.push(faces);
             }
         }
-        let now = crossing_faces(sheet);
+        let now = crossing_now(sheet, &crossing, &drawn);
         if now.len() < crossing.len() {
             crossing = now;
+            nodes.mesh.positions.clone_from(&sheet.positions);
         } else {
-            sheet.positions = before;
+            sheet.positions.clone_from(&nodes.mesh.positions);
+        }
+        if crossing.is_empty() {
+            break;
         }
     }
     crossing.len()
 }
 
-fn crossing_faces(sheet: &Sheet) -> Vec<(u32, u32)> {
-    Crossings::new(&TriMesh::new(sheet.positions.clone(), sheet.faces.clone())).self_crossing()
+/// Pairs of faces that cross, of those that are looked at.
+fn crossing_faces(sheet: &Sheet, looked_at: impl Fn(&[u32; 3]) -> bool + Sync) -> Vec<(u32, u32)> {
+    let faces: Vec<u32> = (0..sheet.faces.len() as u32)
+        .into_par_iter()
+        .filter(|f| looked_at(&sheet.faces[*f as usize]))
+        .collect();
+    let part = faces.iter().map(|f| sheet.faces[*f as usize]).collect();
+    let pairs = Crossings::new(&TriMesh::new(sheet.positions.clone(), part)).self_crossing();
+    pairs.into_iter().map(|(f, g)| (faces[f as usize], faces[g as usize])).collect()
+}
+
+/// The pairs that cross after some sets of faces were drawn: those that have to do with these are looked for anew.
+fn crossing_now(sheet: &Sheet, before: &[(u32, u32)], drawn: &[BTreeSet<u32>]) -> Vec<(u32, u32)> {
+    let extent = |nodes: &mut dyn Iterator<Item = u32>| {
+        nodes
+            .map(|v| sheet.positions[v as usize])
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), p| (lo.min(p), hi.max(p)))
+    };
+    let of_set = |set: &BTreeSet<u32>| extent(&mut set.iter().flat_map(|f| sheet.faces[*f as usize]));
+    let extents: Vec<(DVec3, DVec3)> = drawn.iter().map(of_set).collect();
+    let is_near = |face: &[u32; 3]| {
+        let (lo, hi) = extent(&mut face.iter().copied());
+        extents.iter().any(|e| lo.cmple(e.1).all() && hi.cmpge(e.0).all())
+    };
+    let is_drawn = |f: u32| drawn.iter().any(|set| set.contains(&f));
+    let has_part = |(f, g): &(u32, u32)| is_drawn(*f) || is_drawn(*g);
+    let new = crossing_faces(sheet, is_near).into_iter().filter(has_part);
+    before.iter().copied().filter(|pair| !has_part(pair)).chain(new).collect()
 }
 
 /// Sets of nodes inside of curved pieces, within some rings of what crosses.
