@@ -269,6 +269,29 @@ fn round_walls_follow_their_tessellation() {
 }
 
 #[test]
+fn a_stepped_tube_is_two_tubes_and_a_ring() {
+    // The bore is 10; outside, 12 up to half of the height and 14 above, or the other way about.
+    for [low, high] in [[12.0, 14.0], [14.0, 12.0]] {
+        let profile = [[10.0, 0.0], [low, 0.0], [low, 20.0], [high, 20.0], [high, 40.0], [10.0, 40.0]];
+        for steps in [24, 96] {
+            let solid = revolved(&profile, steps, true);
+            for solid in [&solid, &turned(&solid)] {
+                let thin = deflated(solid);
+                let r = &thin.report;
+                assert_eq!((r.components, r.free_loops, r.self_intersections), (1, 2, 0));
+                let chord = (f64::from(steps) / std::f64::consts::PI).recip().cos();
+                let (low, high) = ((10.0 + low) / 2.0, (10.0 + high) / 2.0);
+                let ring: f64 = high * high - low * low;
+                let area = std::f64::consts::PI * (40.0 * (low + high) + ring.abs());
+                near(r.area, area, 2.0 * (1.0 - chord) + 0.01);
+                near(r.thickness.min, 2.0, 0.02);
+                near(r.thickness.max, 4.0, 0.02);
+            }
+        }
+    }
+}
+
+#[test]
 fn facets_that_were_divided_where_they_lie_stay_facets() {
     let whole = revolved(&[[19., 0.], [21., 0.], [21., 50.], [19., 50.]], 24, true);
     let divided = divided(&divided(&whole));

@@ -59,11 +59,14 @@ use straighten::straightened;
 use thickness::thicknesses;
 use topology::Topology;
 use twins::Twins;
-use untangle::untangle;
+use untangle::{astray, untangle};
 use walls::Walls;
 
 /// A solid is thin if this share of its skin has a partner.
 const THIN: f64 = 0.5;
+
+/// More than this share of a sheet's curved pieces astray is worth another trial.
+const ASTRAY: f64 = 0.05;
 
 /// The mid-surface of a solid.
 #[derive(Clone, Debug)]
@@ -196,29 +199,33 @@ pub fn deflate(
         let mut sheet = assemble(&solid, &segments, &walls, &middles, gone, &kept, &moved, options);
         follow(&mut sheet, &solid, &segments, &walls, &exact, &twins, options.edge_length);
         let crossing = untangle(&mut sheet, &solid, &segments, &walls);
-        (sheet, crossing)
+        let astray = astray(&sheet, &solid, &segments, &walls);
+        Made { sheet, crossing, astray }
     };
-    let (mut sheet, mut crossing) = stitch((&features.gone, &kept));
-    // What comes out crossed may do better with the other sides of walls, or with what was to be removed.
+    let mut best = stitch((&features.gone, &kept));
+    // What comes out crossed or astray may do better with the other sides of walls, or with what was to be removed.
     let others = kept_groups(&solid, &segments, &walls, &blends, &middles.of_group, true);
     let with_all = vec![false; features.gone.len()];
     let undone = if features.gone.contains(&true) { 2 } else { 0 };
     let others = [(&features.gone, &others), (&with_all, &kept), (&with_all, &others)];
     let mut undo = false;
     for (k, (gone, kept)) in others.into_iter().take(1 + undone).enumerate() {
-        let faults = crossing + sheet.lost;
-        if faults == 0 {
+        if best.faults() == 0 && (best.astray < ASTRAY || k > 0) {
             break;
         }
         let trial = stitch((gone, kept));
-        if trial.0.lost + trial.1 < faults {
-            (sheet, crossing) = trial;
+        let fewer = trial.faults() < best.faults();
+        let truer = trial.faults() == best.faults() && trial.astray < 0.5 * best.astray;
+        // Where it does not meet the rest, it is in pieces or has joints beside each other.
+        if (fewer || truer) && trial.seams() <= best.seams() {
+            best = trial;
             undo = k > 0;
         }
     }
     if undo {
         features.undo();
     }
+    let Made { sheet, crossing, .. } = best;
     let thickness = thicknesses(&sheet, &solid, &segments, &walls, &middles, &corners, on_exact);
     let patched = patched(&sheet, &segments);
     let unpaired = unpaired(&solid, &segments, &walls, &features.gone, END_WIDTH);
@@ -252,6 +259,28 @@ pub fn deflate(
         solid_volume: solid.volume,
     };
     Ok(Deflated { sheet: mesh, thickness, report })
+}
+
+/// A sheet as it came out.
+struct Made {
+    sheet: Sheet,
+    /// Pairs of faces that cross.
+    crossing: usize,
+    /// The share of its curved pieces that is not in the middle of the wall.
+    astray: f64,
+}
+
+impl Made {
+    fn faults(&self) -> usize {
+        self.crossing + self.sheet.lost
+    }
+
+    /// How many joints and parts it has.
+    fn seams(&self) -> usize {
+        let mesh = TriMesh::new(self.sheet.positions.clone(), self.sheet.faces.clone());
+        let topology = Topology::of(&mesh);
+        topology.joints + topology.components
+    }
 }
 
 /// How many faces of the solid stand between two middles and are in the sheet.
