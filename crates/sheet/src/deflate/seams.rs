@@ -382,7 +382,7 @@ impl Seams {
 }
 
 /// Parts of borders shorter than this share of what chords may be apart close, in so many rounds.
-const SHORT: f64 = 0.35;
+const SHORT: f64 = 0.42;
 const SHORT_ROUNDS: usize = 2;
 /// Parts that an edge is cut into, at most.
 const MOST_PARTS: f64 = 1e5;
