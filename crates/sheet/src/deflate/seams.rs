@@ -99,21 +99,25 @@ impl Seams {
             }
         }
         for _ in 0..SHORT_ROUNDS {
-            seams.merge_short(SHORT * near.chords);
+            seams.merge_short(near.chords);
         }
         seams
     }
 
     /// Closes parts between nodes that are only as exact as chords and so near to each other that the border would zigzag.
-    fn merge_short(&mut self, least: f64) {
+    fn merge_short(&mut self, chords: f64) {
         let length = |[a, b]: &[u32; 2]| self.positions[*a as usize].distance(self.positions[*b as usize]);
         let parts: Vec<[u32; 2]> = self.parts().into_iter().map(|p| p.0).collect();
         let mut at_node = vec![0u32; self.positions.len()];
         parts.iter().flatten().for_each(|v| at_node[*v as usize] += 1);
         let parts = parts.into_iter();
         let is_soft = |[a, b]: &[u32; 2]| self.soft[*a as usize] && self.soft[*b as usize];
+        // Where borders end and branch, they do so for good.
+        let is_for_good = |[a, b]: &[u32; 2]| [*a, *b].map(|v| at_node[v as usize] != 2);
+        let least =
+            |part: &[u32; 2]| chords * if is_for_good(part) == [true; 2] { SHORT_ENDS } else { SHORT };
         let mut short: Vec<(f64, [u32; 2])> =
-            parts.filter(is_soft).map(|p| (length(&p), p)).filter(|p| p.0 < least).collect();
+            parts.filter(is_soft).map(|p| (length(&p), p)).filter(|p| p.0 < least(&p.1)).collect();
         short.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let mut used = vec![false; self.positions.len()];
         for (_, [a, b]) in short {
@@ -121,8 +125,7 @@ impl Seams {
                 (used[a as usize], used[b as usize]) = (true, true);
                 let stays = a.min(b) as usize;
                 let (p, q) = (self.positions[a as usize], self.positions[b as usize]);
-                // Where borders end and branch, they do so for good.
-                self.positions[stays] = match [a, b].map(|v| at_node[v as usize] != 2) {
+                self.positions[stays] = match is_for_good(&[a, b]) {
                     [true, false] => p,
                     [false, true] => q,
                     _ => p.midpoint(q),
@@ -383,6 +386,8 @@ impl Seams {
 
 /// Parts of borders shorter than this share of what chords may be apart close, in so many rounds.
 const SHORT: f64 = 0.42;
+/// The same between nodes at both of which borders end or branch.
+const SHORT_ENDS: f64 = 0.35;
 const SHORT_ROUNDS: usize = 2;
 /// Parts that an edge is cut into, at most.
 const MOST_PARTS: f64 = 1e5;
