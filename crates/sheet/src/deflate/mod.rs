@@ -213,11 +213,15 @@ pub fn deflate(
         if best.faults() == 0 && (best.astray < ASTRAY || k > 0) {
             break;
         }
+        if watcher.cancelled() {
+            return Err(DeflateError::Cancelled);
+        }
         let trial = stitch((gone, kept));
         let fewer = trial.faults() < best.faults();
         let truer = trial.faults() == best.faults() && trial.astray < 0.5 * best.astray;
-        // Where it does not meet the rest, it is in pieces or has joints beside each other.
-        if (fewer || truer) && trial.seams() <= best.seams() {
+        // Where it does not meet the rest, it is in pieces or has joints beside each other. With features it has more anyway.
+        let meets = (k > 0 && !undo) || trial.seams() <= best.seams();
+        if (fewer || truer) && meets {
             best = trial;
             undo = k > 0;
         }
