@@ -267,8 +267,7 @@ fn is_chamfer(solid: &Solid, segments: &Segments, walls: &Walls, g: u32) -> bool
         if other == g {
             continue;
         }
-        let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
-        let length = a.distance(b);
+        let length = solid.length(h);
         outline += length;
         if solid.fold_cosine(h) > OBLIQUE.cos() {
             if walls.is_wall[other as usize] {

@@ -171,8 +171,7 @@ fn blend(solid: &Solid, segments: &Segments, walls: &Walls, blends: &Blends, set
     let (mut outline, mut concave, mut turn) = (0.0, 0.0, 0.0);
     for h in faces.iter().flat_map(|f| 3 * f..3 * f + 3) {
         let other = segments.of(solid.across(h));
-        let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
-        let length = a.distance(b);
+        let length = solid.length(h);
         if !own.contains(&other) {
             outline += length;
         }

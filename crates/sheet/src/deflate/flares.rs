@@ -63,9 +63,7 @@ impl Walls {
                     let to = segments.of(other);
                     if self.is_wall[to as usize] && solid.fold_cosine(h) > OBLIQUE.cos() {
                         hollow -= solid.bend(h);
-                    }
-                    if to != g && self.is_wall[to as usize] && solid.fold_cosine(h) > OBLIQUE.cos() {
-                        border += solid.length(h);
+                        border += if to == g { 0.0 } else { solid.length(h) };
                     }
                     if to == g && looks_past[other as usize] {
                         if !seen[other as usize] {

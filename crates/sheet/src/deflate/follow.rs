@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use super::assemble::{Sheet, Source};
 use super::exact::Exact;
 use super::remesh::{Diagonal, Nodes, Remesh};
-use super::segments::Segments;
+use super::segments::{Segments, longest_side};
 use super::solid::Solid;
 use super::twins::Twins;
 use super::walls::{FACET_LEAN, Opposite, Walls};
@@ -90,8 +90,7 @@ pub(super) fn between(
     // The planes of small faces say nothing of where one does not look.
     let seen = [(up, above, to_above, normal), (down, below, to_below, -normal)];
     let is_beside = |(hit, n, far, d): &(Opposite, DVec3, f64, DVec3)| {
-        let corners = solid.mesh.corners(hit.face);
-        (*d * hit.distance - *n * *far).length() < BESIDE * narrow(&corners)
+        (*d * hit.distance - *n * *far).length() < BESIDE * narrow(solid, hit.face)
     };
     let (off, thickness) = if seen.iter().all(is_beside) {
         // Along the normal of one of them, as far as it is to the middle twice.
@@ -104,10 +103,9 @@ pub(super) fn between(
         .then_some(Between { off, thickness })
 }
 
-/// The height of a triangle on its longest side.
-fn narrow([a, b, c]: &[DVec3; 3]) -> f64 {
-    let longest = a.distance(*b).max(b.distance(*c)).max(c.distance(*a));
-    (*b - *a).cross(*c - *a).length() / longest
+/// The height of a face on its longest side, in mm.
+fn narrow(solid: &Solid, f: u32) -> f64 {
+    2.0 * solid.areas[f as usize] / longest_side(&solid.mesh.corners(f))
 }
 
 /// What is needed to look at a sheet from within.

@@ -317,10 +317,7 @@ fn unpaired(
             .iter()
             .flat_map(|f| 3 * f..3 * f + 3)
             .filter(|h| segments.of(solid.across(*h)) != segments.of(h / 3))
-            .map(|h| {
-                let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
-                a.distance(b)
-            })
+            .map(|h| solid.length(h))
             .sum();
         if 2.0 * group.area < wider * walls.max_thickness * outline {
             continue;

@@ -402,9 +402,8 @@ impl Regions {
             let [region, other] = [h / 3, solid.across(h)].map(|f| of_face[f as usize]);
             let cosine = solid.fold_cosine(h);
             (region != other && cosine > SHARP.cos()).then(|| {
-                let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
                 let fold = cosine.clamp(-1.0, 1.0).acos();
-                Beside { region, other, length: a.distance(b), fold }
+                Beside { region, other, length: solid.length(h), fold }
             })
         };
         let mut all: Vec<Beside> = (0..3 * solid.len()).into_par_iter().filter_map(smooth).collect();
@@ -460,7 +459,8 @@ fn is_turned_little(solid: &Solid, f: u32, normal: DVec3, corners: &[DVec3; 3], 
     turn.sqrt() < 2.0 * tolerance / height.max(f64::MIN_POSITIVE)
 }
 
-fn longest_side([a, b, c]: &[DVec3; 3]) -> f64 {
+/// In mm.
+pub(super) fn longest_side([a, b, c]: &[DVec3; 3]) -> f64 {
     a.distance(*b).max(b.distance(*c)).max(c.distance(*a))
 }
 

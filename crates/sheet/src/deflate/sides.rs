@@ -159,8 +159,7 @@ impl Creases {
     }
 
     fn count(&mut self, solid: &Solid, g: u32, h: u32) {
-        let [a, b] = solid.adjacency.ends(h).map(|v| solid.mesh.positions[v as usize]);
-        let length = a.distance(b);
+        let length = solid.length(h);
         self.concave[g as usize] += if solid.is_convex(h) { -length } else { length };
     }
 }
