@@ -252,7 +252,7 @@ fn cancel_doubles(sheet: &mut Sheet) {
 }
 
 /// A face whose sides have nodes on them, as triangles; nothing where two corners are one.
-fn cut(sides: [Vec<u32>; 3]) -> Vec<[u32; 3]> {
+pub(super) fn cut(sides: [Vec<u32>; 3]) -> Vec<[u32; 3]> {
     let corners = [sides[0][0], sides[1][0], sides[2][0]];
     let [a, b, c] = corners;
     if a == b || b == c || c == a {

@@ -49,6 +49,8 @@ const ROUNDS: usize = 6;
 const MESHINGS: usize = 8;
 const LONG: f64 = 4.0 / 3.0;
 const SHORT: f64 = 4.0 / 5.0;
+/// Diagonals of a plane are as near as this share of their lengths.
+const FLAT: f64 = 1e-6;
 /// Looks from a free edge begin this far from it towards the middle of its face: at the edge there is nothing to be seen.
 const INSET: f64 = 0.04;
 /// The middle is looked for within this share of the thickness.
@@ -389,6 +391,34 @@ struct Look {
     /// The way to the middle of the wall; none where nothing is seen.
     off: DVec3,
     thickness: f64,
+}
+
+/// Meshes a sheet of flat facets to about an edge length where it lies: long edges are split, and diagonals turned within planes.
+/// O(n log n) a round.
+pub(super) fn split_to(sheet: &mut Sheet, solid: &Solid, length: f64) {
+    let remesh = Remesh { solid };
+    let is_flat = |diagonal: &Diagonal<'_>| {
+        let [[a, b], [c, d]] =
+            [diagonal.old, diagonal.new].map(|ends| ends.map(|v| diagonal.positions[v as usize]));
+        let normal = (b - a).cross(d - c).normalize_or_zero();
+        normal.dot(c - a).abs() < FLAT * a.distance(b).max(c.distance(d))
+    };
+    for _ in 0..MESHINGS {
+        let nodes = remesh.nodes(sheet);
+        let mut middles: BTreeMap<u32, u32> = BTreeMap::new();
+        for (e, ends) in (0u32..).zip(nodes.adjacency.edges()) {
+            let [p, q] = ends.map(|v| sheet.positions[v as usize]);
+            if p.distance(q) > LONG * length && sheet.faces.len() + 2 * middles.len() < MOST_FACES {
+                sheet.positions.push(p.midpoint(q));
+                middles.insert(e, sheet.positions.len() as u32 - 1);
+            }
+        }
+        if middles.is_empty() {
+            break;
+        }
+        divide(sheet, &nodes, &middles);
+        remesh.turn(sheet, &is_flat);
+    }
 }
 
 /// Divides the faces beside edges with nodes in their middles.

@@ -14,6 +14,7 @@ mod flares;
 mod follow;
 mod middle;
 mod nearness;
+mod offset;
 mod options;
 mod patches;
 mod plan;
@@ -48,7 +49,7 @@ use blends::Blends;
 use exact::Exact;
 use faces::Faces;
 use features::Features;
-use follow::follow;
+use follow::{follow, split_to};
 use middle::Middles;
 use patches::patched;
 use replace::Replacement;
@@ -65,7 +66,9 @@ use walls::Walls;
 /// A solid is thin if this share of its skin has a partner.
 const THIN: f64 = 0.5;
 
-/// More than this share of a sheet's curved pieces astray is worth another trial.
+/// If more than this share of a sheet's curved pieces is astray, it may be made of flat facets.
+const FOLDED: f64 = 5e-3;
+/// More than this share of them astray is worth another trial.
 const ASTRAY: f64 = 0.05;
 
 /// The mid-surface of a solid.
@@ -207,6 +210,17 @@ pub fn deflate(
     let others = kept_groups(&solid, &segments, &walls, &blends, &middles.of_group, true);
     let with_all = vec![false; features.gone.len()];
     let undone = if features.gone.contains(&true) { 2 } else { 0 };
+    if best.faults() > 0 || best.astray > FOLDED {
+        let read_off = offset::read_off(&solid, &walls).map(|mut sheet| {
+            if let Some(length) = options.edge_length {
+                split_to(&mut sheet, &solid, length);
+            }
+            let crossing = untangle(&mut sheet, &solid, &segments, &walls);
+            let astray = astray(&sheet, &solid, &segments, &walls);
+            Made { sheet, crossing, astray }
+        });
+        best = read_off.filter(|made| made.faults() == 0).unwrap_or(best);
+    }
     let others = [(&features.gone, &others), (&with_all, &kept), (&with_all, &others)];
     let mut undo = false;
     for (k, (gone, kept)) in others.into_iter().take(1 + undone).enumerate() {

@@ -11,18 +11,18 @@ use super::solid::Solid;
 use super::walls::{Pair, Walls};
 
 /// Union–find whose members know on which of two sides they are.
-struct Parity {
+pub(super) struct Parity {
     parent: Vec<u32>,
     flipped: Vec<bool>,
 }
 
 impl Parity {
-    fn new(n: usize) -> Self {
+    pub(super) fn new(n: usize) -> Self {
         Self { parent: (0..n as u32).collect(), flipped: vec![false; n] }
     }
 
     /// The representative, and whether `x` is on the other side of it.
-    fn find(&mut self, x: u32) -> (u32, bool) {
+    pub(super) fn find(&mut self, x: u32) -> (u32, bool) {
         let (mut root, mut side) = (x, false);
         while self.parent[root as usize] != root {
             side ^= self.flipped[root as usize];
@@ -41,7 +41,7 @@ impl Parity {
     }
 
     /// Says that two are on one side, or not; `false` if the contrary is known.
-    fn relate(&mut self, a: u32, b: u32, other_side: bool) -> bool {
+    pub(super) fn relate(&mut self, a: u32, b: u32, other_side: bool) -> bool {
         let ((ra, sa), (rb, sb)) = (self.find(a), self.find(b));
         if ra == rb {
             return (sa ^ sb) == other_side;

@@ -250,7 +250,7 @@ const MOST_ROWS: u32 = 32;
 const SMALLEST_LEAN: f64 = 1e-3;
 
 /// The middles of the n² parts of a triangle that equal divisions of the sides make.
-fn spread([a, b, c]: [DVec3; 3], n: u32) -> impl Iterator<Item = DVec3> {
+pub(super) fn spread([a, b, c]: [DVec3; 3], n: u32) -> impl Iterator<Item = DVec3> {
     let step = 1.0 / f64::from(n);
     let at = move |u: f64, v: f64| a + (b - a) * (u * step) + (c - a) * (v * step);
     let cells = (0..n).flat_map(move |i| (0..n - i).map(move |j| (i, j)));
