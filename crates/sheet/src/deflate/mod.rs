@@ -31,6 +31,7 @@ mod star;
 mod straighten;
 mod thickness;
 mod topology;
+mod trials;
 mod twins;
 mod untangle;
 mod walls;
@@ -44,12 +45,11 @@ use std::collections::BTreeSet;
 
 use mesh_kernel::TriMesh;
 
-use assemble::{Moved, Sheet, Source, assemble};
+use assemble::{Moved, Sheet, Source};
 use blends::Blends;
 use exact::Exact;
 use faces::Faces;
 use features::Features;
-use follow::{follow, split_to};
 use middle::Middles;
 use patches::patched;
 use replace::Replacement;
@@ -59,17 +59,12 @@ use solid::Solid;
 use straighten::straightened;
 use thickness::thicknesses;
 use topology::Topology;
+use trials::{Chosen, Made, Trials};
 use twins::Twins;
-use untangle::{astray, untangle};
 use walls::Walls;
 
 /// A solid is thin if this share of its skin has a partner.
 const THIN: f64 = 0.5;
-
-/// If more than this share of a sheet's curved pieces is astray, it may be made of flat facets.
-const FOLDED: f64 = 5e-3;
-/// More than this share of them astray is worth another trial.
-const ASTRAY: f64 = 0.05;
 
 /// The mid-surface of a solid.
 #[derive(Clone, Debug)]
@@ -195,55 +190,24 @@ pub fn deflate(
     let blended = nodes.map(|v| !blends.behind(v).is_empty()).collect();
     let moved = Moved { positions: replacement.positions(), soft: replacement.beside_facets(), blended };
     begin(Step::Stitch)?;
-    // A mesh of its own has nodes on exact middles; one that follows the facets is as thick as they are apart.
-    let on_exact = options.edge_length.map(|_| &exact);
-    let stitch = |(gone, kept): (&[bool], &[bool])| {
-        let kept: Vec<bool> = kept.iter().zip(gone).map(|(kept, gone)| *kept && !gone).collect();
-        let mut sheet = assemble(&solid, &segments, &walls, &middles, gone, &kept, &moved, options);
-        follow(&mut sheet, &solid, &segments, &walls, &exact, &twins, options.edge_length);
-        let crossing = untangle(&mut sheet, &solid, &segments, &walls);
-        let astray = astray(&sheet, &solid, &segments, &walls);
-        Made { sheet, crossing, astray }
-    };
-    let mut best = stitch((&features.gone, &kept));
-    // What comes out crossed or astray may do better with the other sides of walls, or with what was to be removed.
     let others = kept_groups(&solid, &segments, &walls, &blends, &middles.of_group, true);
-    let with_all = vec![false; features.gone.len()];
-    let undone = if features.gone.contains(&true) { 2 } else { 0 };
-    if best.faults() > 0 || best.astray > FOLDED {
-        let read_off = offset::read_off(&solid, &walls).map(|mut sheet| {
-            if let Some(length) = options.edge_length {
-                split_to(&mut sheet, &solid, length);
-            }
-            let crossing = untangle(&mut sheet, &solid, &segments, &walls);
-            let astray = astray(&sheet, &solid, &segments, &walls);
-            Made { sheet, crossing, astray }
-        });
-        best = read_off.filter(|made| made.faults() == 0).unwrap_or(best);
-    }
-    let others = [(&features.gone, &others), (&with_all, &kept), (&with_all, &others)];
-    let mut undo = false;
-    for (k, (gone, kept)) in others.into_iter().take(1 + undone).enumerate() {
-        if best.faults() == 0 && (best.astray < ASTRAY || k > 0) {
-            break;
-        }
-        if watcher.cancelled() {
-            return Err(DeflateError::Cancelled);
-        }
-        let trial = stitch((gone, kept));
-        let fewer = trial.faults() < best.faults();
-        let truer = trial.faults() == best.faults() && trial.astray < 0.5 * best.astray;
-        // Where it does not meet the rest, it is in pieces or has joints beside each other. With features it has more anyway.
-        let meets = (k > 0 && !undo) || trial.seams() <= best.seams();
-        if (fewer || truer) && meets {
-            best = trial;
-            undo = k > 0;
-        }
-    }
-    if undo {
+    let trials = Trials {
+        solid: &solid,
+        segments: &segments,
+        walls: &walls,
+        middles: &middles,
+        moved: &moved,
+        exact: &exact,
+        twins: &twins,
+        options,
+    };
+    let Chosen { made: Made { sheet, crossing, .. }, with_features } =
+        trials.best(&features.gone, &kept, &others, watcher)?;
+    if with_features {
         features.undo();
     }
-    let Made { sheet, crossing, .. } = best;
+    // A mesh of its own has nodes on exact middles; one that follows the facets is as thick as they are apart.
+    let on_exact = options.edge_length.map(|_| &exact);
     let thickness = thicknesses(&sheet, &solid, &segments, &walls, &middles, &corners, on_exact);
     let patched = patched(&sheet, &segments);
     let unpaired = unpaired(&solid, &segments, &walls, &features.gone, END_WIDTH);
@@ -277,28 +241,6 @@ pub fn deflate(
         solid_volume: solid.volume,
     };
     Ok(Deflated { sheet: mesh, thickness, report })
-}
-
-/// A sheet as it came out.
-struct Made {
-    sheet: Sheet,
-    /// Pairs of faces that cross.
-    crossing: usize,
-    /// The share of its curved pieces that is not in the middle of the wall.
-    astray: f64,
-}
-
-impl Made {
-    fn faults(&self) -> usize {
-        self.crossing + self.sheet.lost
-    }
-
-    /// How many joints and parts it has.
-    fn seams(&self) -> usize {
-        let mesh = TriMesh::new(self.sheet.positions.clone(), self.sheet.faces.clone());
-        let topology = Topology::of(&mesh);
-        topology.joints + topology.components
-    }
 }
 
 /// How many faces of the solid stand between two middles and are in the sheet.
