@@ -11,7 +11,7 @@ use glam::DVec3;
 use super::nearness::{Nearness, crossing, near_pairs};
 
 /// Union–find in which the smaller number stands for both.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Merged {
     parent: Vec<u32>,
 }

@@ -92,29 +92,73 @@ pub(super) fn read_off(solid: &Solid, walls: &Walls) -> Option<Sheet> {
         close(solid, &turned, &mut merged, &mut at);
         settle(solid, &facets, &sure, &merged, &mut at);
     }
-    let image = |f: &u32| solid.mesh.faces[*f as usize].map(|v| at[merged.find(v) as usize].at);
-    let mut kept = taken(solid, &facets, &sides, &lone, &sure, &image);
-    let seen = Closest::new(kept.iter().filter(|f| sides.is_main(**f)).map(image));
-    kept.retain(|f| {
-        sides.is_main(*f) || !lone.contains(f) || !seen.is_near(middle(image(f)), NEAR * sides.thickness)
-    });
-    for _ in 0..2 {
-        settle(solid, &facets, &kept, &merged, &mut at);
-        join(solid, &sides, &kept, &mut merged, &mut at);
-    }
-    settle(solid, &facets, &kept, &merged, &mut at);
-    let mut sheet = Sheet { positions: at.iter().map(|place| place.at).collect(), ..Sheet::default() };
-    for f in kept {
-        let [a, b, c] = solid.mesh.faces[f as usize].map(|v| merged.find(v));
-        if width([a, b, c].map(|v| at[v as usize].at)) > NARROW * sides.thickness {
-            sheet.faces.push(if sides.is_main(f) { [a, b, c] } else { [a, c, b] });
-            sheet.sources.push(Source::Facet(f));
+    // Where folds follow on each other closely, both sides have lost so much that they only fit together as they are.
+    let read = Read { solid, facets: &facets, sides: &sides, lone: &lone, sure: &sure };
+    let sheets = [true, false].into_iter().map(|swaps| read.sheet(merged.clone(), at.clone(), swaps));
+    sheets.into_iter().find(|sheet| is_right(sheet, solid, &sides, &paired))
+}
+
+/// What a sheet is read off from.
+struct Read<'a> {
+    solid: &'a Solid,
+    facets: &'a [Option<Facet>],
+    sides: &'a Sides,
+    lone: &'a BTreeSet<u32>,
+    /// Facets with an opposite one, and lone ones.
+    sure: &'a [u32],
+}
+
+impl Read<'_> {
+    /// The sheet of the main side; with `swaps`, where folds have cut away from that, of the other one. Nodes are `merged` and `at` their
+    /// places.
+    fn sheet(&self, mut merged: Merged, mut at: Vec<Place>, swaps: bool) -> Sheet {
+        let Self { solid, facets, sides, lone, .. } = *self;
+        let image = |f: &u32| solid.mesh.faces[*f as usize].map(|v| at[merged.find(v) as usize].at);
+        let mut kept = self.taken(&image, swaps);
+        let seen = Closest::new(kept.iter().filter(|f| sides.is_main(**f)).map(image));
+        kept.retain(|f| {
+            sides.is_main(*f) || !lone.contains(f) || !seen.is_near(middle(image(f)), NEAR * sides.thickness)
+        });
+        for _ in 0..2 {
+            settle(solid, facets, &kept, &merged, &mut at);
+            join(solid, sides, &kept, &mut merged, &mut at);
         }
+        settle(solid, facets, &kept, &merged, &mut at);
+        let mut sheet = Sheet { positions: at.iter().map(|place| place.at).collect(), ..Sheet::default() };
+        for f in kept {
+            let [a, b, c] = solid.mesh.faces[f as usize].map(|v| merged.find(v));
+            if width([a, b, c].map(|v| at[v as usize].at)) > NARROW * sides.thickness {
+                sheet.faces.push(if sides.is_main(f) { [a, b, c] } else { [a, c, b] });
+                sheet.sources.push(Source::Facet(f));
+            }
+        }
+        let mut sheet = without_strays(conforming(sheet, NEAR * sides.thickness));
+        fill_notches(&mut sheet, sides.thickness);
+        sheet.without_unused_nodes()
     }
-    let mut sheet = without_strays(conforming(sheet, NEAR * sides.thickness));
-    fill_notches(&mut sheet, sides.thickness);
-    let sheet = sheet.without_unused_nodes();
-    is_right(&sheet, solid, &sides, &paired).then_some(sheet)
+
+    /// The facets that become the sheet: of those opposite to each other the ones of the main side, or the others where folds have cut
+    /// away from them; and lone ones.
+    fn taken(&self, image: &dyn Fn(&u32) -> [DVec3; 3], swaps: bool) -> Vec<u32> {
+        let Self { solid, facets, sides, lone, sure } = *self;
+        let flat = flat_parts(solid);
+        let part = |f: u32| flat[f as usize] as usize;
+        let mut areas = vec![0.0; flat.len()];
+        for f in sure {
+            let [a, b, c] = image(f);
+            areas[part(*f)] += (b - a).cross(c - a).length() / 2.0;
+        }
+        let mut is_swapped = vec![false; flat.len()];
+        for &f in sure.iter().filter(|f| swaps && sides.is_main(**f) && !lone.contains(f)) {
+            let other = facets[f as usize].map_or(f, |facet| facet.seen);
+            if areas[part(other)] > CUT * areas[part(f)] {
+                is_swapped[part(f)] = true;
+                is_swapped[part(other)] = true;
+            }
+        }
+        let is_taken = |f: &u32| lone.contains(f) || sides.is_main(*f) != is_swapped[part(*f)];
+        sure.iter().copied().filter(is_taken).collect()
+    }
 }
 
 /// Facets without an opposite one that are no rounds: put where all others say, they lie as they should.
@@ -142,35 +186,6 @@ fn is_turned(solid: &Solid, facets: &[Option<Facet>], merged: &Merged, at: &[Pla
     let across = (b - a).cross(c - a);
     let width = width(corners);
     width > 0.0 && width < BIT * facet.thickness && across.dot(facet.normal) < LEAN.cos() * across.length()
-}
-
-/// The facets that become the sheet: of those opposite to each other the ones of the main side, unless a fold has cut away from
-/// them; and lone ones.
-fn taken(
-    solid: &Solid,
-    facets: &[Option<Facet>],
-    sides: &Sides,
-    lone: &BTreeSet<u32>,
-    sure: &[u32],
-    image: &dyn Fn(&u32) -> [DVec3; 3],
-) -> Vec<u32> {
-    let flat = flat_parts(solid);
-    let part = |f: u32| flat[f as usize] as usize;
-    let mut areas = vec![0.0; flat.len()];
-    for f in sure {
-        let [a, b, c] = image(f);
-        areas[part(*f)] += (b - a).cross(c - a).length() / 2.0;
-    }
-    let mut is_swapped = vec![false; flat.len()];
-    for &f in sure.iter().filter(|f| sides.is_main(**f) && !lone.contains(f)) {
-        let other = facets[f as usize].map_or(f, |facet| facet.seen);
-        if areas[part(other)] > CUT * areas[part(f)] {
-            is_swapped[part(f)] = true;
-            is_swapped[part(other)] = true;
-        }
-    }
-    let is_taken = |f: &u32| lone.contains(f) || sides.is_main(*f) != is_swapped[part(*f)];
-    sure.iter().copied().filter(is_taken).collect()
 }
 
 /// Triangles that places are near to, or not.
