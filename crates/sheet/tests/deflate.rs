@@ -292,6 +292,19 @@ fn a_stepped_tube_is_two_tubes_and_a_ring() {
 }
 
 #[test]
+fn a_thick_end_of_a_thin_tube_is_a_wall() {
+    // 4 thick for 35, and 1.5 for 45, stepped on both sides.
+    let outline =
+        [[12., 0.], [16., 0.], [16., 35.], [15., 35.], [15., 80.], [13.5, 80.], [13.5, 35.], [12., 35.]];
+    let thin = deflated(&revolved(&outline, 64, true));
+    let area = |f: u32| thin.sheet.area_normal(f).length() / 2.0;
+    let volume: f64 = (0u32..).zip(&thin.thickness).map(|(f, t)| area(f) * t).sum();
+    near(volume, thin.report.solid_volume, 0.02);
+    let thick: f64 = (0u32..).zip(&thin.thickness).filter(|(_, t)| **t > 3.0).map(|(f, _)| area(f)).sum();
+    near(thick, std::f64::consts::TAU * 14.0 * 35.0, 0.02);
+}
+
+#[test]
 fn facets_that_were_divided_where_they_lie_stay_facets() {
     let whole = revolved(&[[19., 0.], [21., 0.], [21., 50.], [19., 50.]], 24, true);
     let divided = divided(&divided(&whole));

@@ -21,7 +21,7 @@ const NEARLY_ALL: f64 = 0.9;
 const SMALL_GAP: f64 = 1.6;
 /// A thickness told from the solid is no more than this share of how far its walls reach.
 const SLENDER: f64 = 0.35;
-/// A plane wall is a plate whatever the others are if it has this share of the skin, is less thick than this share of its width,
+/// A wall is a plate whatever the others are if it has this share of the skin, is less thick than this share of its width,
 /// and evenly so up to this share.
 const PLATE: f64 = 0.02;
 const FLAT: f64 = 0.2;
@@ -279,8 +279,8 @@ fn told_thickness(looks: &[Look], area: f64) -> f64 {
     (1.02 * largest).min(SLENDER * (area / 2.0).sqrt())
 }
 
-/// How thick plane walls are that are much broader than thick and not just a trifle of the skin, whatever the rest is: the base
-/// below thin fins.
+/// How thick walls are that are much broader than thick, evenly so, and not just a trifle of the skin, whatever the rest is: the base
+/// below thin fins, the thick end of a tube.
 fn thick_plates<'a>(
     solid: &'a Solid,
     segments: &'a Segments,
@@ -291,8 +291,7 @@ fn thick_plates<'a>(
         .iter()
         .filter_map(|l| {
             let (partner, thickness) = l.seen?;
-            let planes = [l.group, partner].iter().all(|g| segments.group(*g).plane.is_some());
-            planes.then_some((l.group, thickness, l.area))
+            (l.group != partner).then_some((l.group, thickness, l.area))
         })
         .collect();
     seen.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
