@@ -36,10 +36,11 @@ const BIT: f64 = 0.5;
 /// Holes of so few edges are none if they are narrower than a bit, or than so many thicknesses all over.
 const NOTCH_EDGES: usize = 8;
 const NOTCH: f64 = 3.0;
-/// Sheets of flat facets that fold have no more than so many of them.
+/// Sheets of flat facets that fold have no more than so many of them, and facets of rounds.
 const MOST_FACETS: u32 = 200_000;
-/// Rounds of looking for them: each may hang on others.
-const ROUNDS: usize = 20;
+const MOST_ROUNDS: usize = 20_000;
+/// Passes of looking for lone facets, and for bits that reach past a corner: each may hang on others.
+const PASSES: usize = 20;
 /// A fold has cut away from a facet if its opposite one is so many times larger.
 const CUT: f64 = 1.1;
 /// This share of a sheet may not be what its facets say.
@@ -59,7 +60,7 @@ pub(super) fn read_off(solid: &Solid, walls: &Walls) -> Option<Sheet> {
     let sides = Sides::new(solid, &facets)?;
     let starts = starts(solid, &sides);
     let mut lone = BTreeSet::new();
-    for _ in 0..ROUNDS {
+    for _ in 0..PASSES {
         let found = lone_facets(solid, &facets, &places(solid, &facets, &sides, &starts));
         if found.is_empty() {
             break;
@@ -78,12 +79,15 @@ pub(super) fn read_off(solid: &Solid, walls: &Walls) -> Option<Sheet> {
     let mut at = places(solid, &facets, &sides, &starts);
     let is_round = |f: &u32| sides.of(*f).is_some() && !is_sure[*f as usize];
     let rounds: Vec<u32> = (0..solid.len()).filter(is_round).collect();
+    if rounds.len() > MOST_ROUNDS {
+        return None;
+    }
     let mut merged = Merged::new(at.len());
     close(solid, &rounds, &mut merged, &mut at);
     let sure: Vec<u32> = (0..solid.len()).filter(|f| is_sure[*f as usize]).collect();
     // Each side for itself: what a fold has cut away from is smaller there.
     settle(solid, &facets, &sure, &merged, &mut at);
-    for _ in 0..ROUNDS {
+    for _ in 0..PASSES {
         let turned = |f: &u32| is_turned(solid, &facets, &merged, &at, *f);
         let turned: Vec<u32> = sure.iter().copied().filter(turned).collect();
         if turned.is_empty() {

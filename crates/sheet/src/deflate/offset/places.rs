@@ -140,7 +140,11 @@ pub(super) fn close(solid: &Solid, rounds: &[u32], merged: &mut Merged, at: &mut
         let one = merged.find(a);
         at[one as usize] = better;
         // What was far may be near now.
-        let faces = [a, b].iter().filter_map(|v| about.remove(v)).flatten().collect::<Vec<u32>>();
+        let mut faces = [a, b].iter().filter_map(|v| about.remove(v)).flatten().collect::<Vec<u32>>();
+        faces.retain(|f| {
+            let [p, q, r] = solid.mesh.faces[*f as usize].map(|v| merged.find(v));
+            p != q && q != r && r != p
+        });
         for f in &faces {
             let [p, q, r] = solid.mesh.faces[*f as usize].map(|v| merged.find(v));
             for [p, q] in [[p, q], [q, r], [r, p]] {
@@ -177,27 +181,31 @@ pub(super) fn settle(
     }
 }
 
-/// Makes one of nodes in one place. O(n log n), unless many are above each other.
+/// Makes one of nodes in one place. O(n log n).
 pub(super) fn join(solid: &Solid, sides: &Sides, taken: &[u32], merged: &mut Merged, at: &mut [Place]) {
     let nodes = |f: &u32| solid.mesh.faces[*f as usize].map(|v| (v, sides.is_main(*f)));
     let mut all: Vec<(u32, bool)> =
         taken.iter().flat_map(nodes).map(|(v, main)| (merged.find(v), main)).collect();
-    all.sort_by(|v, w| at[v.0 as usize].at.x.total_cmp(&at[w.0 as usize].at.x).then(v.cmp(w)));
+    all.sort_unstable();
     all.dedup();
-    // Places change as nodes are joined, by less than they are near.
-    let first: Vec<f64> = all.iter().map(|v| at[v.0 as usize].at.x).collect();
-    for (k, (v, v_main)) in all.iter().enumerate() {
-        for (j, (w, w_main)) in all.iter().enumerate().skip(k + 1) {
-            if first[j] - first[k] > NEAR * sides.thickness {
-                break;
-            }
-            let near = if v_main == w_main { SAME } else { NEAR };
-            let (a, b) = (merged.find(*v), merged.find(*w));
-            let (p, q) = (at[a as usize], at[b as usize]);
-            if a != b && p.at.distance(q.at) < near * sides.thickness {
-                merged.join(a, b);
-                at[merged.find(a) as usize] = if p.rank >= q.rank { p } else { q };
-            }
+    let cell = NEAR * sides.thickness;
+    let key = |v: u32| (at[v as usize].at / cell).floor().to_array().map(|x| x as i64);
+    let mut cells: BTreeMap<[i64; 3], Vec<(u32, bool)>> = BTreeMap::new();
+    let mut near: Vec<[(u32, bool); 2]> = Vec::new();
+    for &node in &all {
+        let [x, y, z] = key(node.0);
+        let beside =
+            (-1..=1).flat_map(|i| (-1..=1).flat_map(move |j| (-1..=1).map(move |k| [x + i, y + j, z + k])));
+        near.extend(beside.filter_map(|key| cells.get(&key)).flatten().map(|other| [*other, node]));
+        cells.entry([x, y, z]).or_default().push(node);
+    }
+    for [(v, v_main), (w, w_main)] in near {
+        let share = if v_main == w_main { SAME } else { NEAR };
+        let (a, b) = (merged.find(v), merged.find(w));
+        let (p, q) = (at[a as usize], at[b as usize]);
+        if a != b && p.at.distance(q.at) < share * sides.thickness {
+            merged.join(a, b);
+            at[merged.find(a) as usize] = if p.rank >= q.rank { p } else { q };
         }
     }
 }
