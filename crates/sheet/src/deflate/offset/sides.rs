@@ -23,7 +23,7 @@ const ROWS: u32 = 3;
 const SLIGHT: f64 = 15.0 / 180.0 * std::f64::consts::PI;
 /// The wall is as thick everywhere, up to this share.
 const EVEN: f64 = 0.04;
-/// What is opposite to a facet is no smaller than this share of it.
+/// A facet is no smaller than this share of what is opposite to it.
 const SHARD: f64 = 0.1;
 /// This share of the skin has an opposite facet; else it is no sheet made thick.
 const SURE: f64 = 0.6;
