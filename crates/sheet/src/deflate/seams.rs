@@ -190,12 +190,21 @@ impl Seams {
     fn update(&mut self) {
         self.merged.flatten();
         for path in &mut self.paths {
-            path.iter_mut().for_each(|v| *v = self.merged.find(*v));
-            path.dedup();
-            // There and back again is nothing.
-            while let Some(k) = path.windows(3).position(|w| w[0] == w[2]) {
-                path.drain(k..k + 2);
+            let mut kept = 0;
+            for k in 0..path.len() {
+                let v = self.merged.find(path[k]);
+                if kept > 0 && path[kept - 1] == v {
+                    continue;
+                }
+                // There and back again is nothing.
+                if kept > 1 && path[kept - 2] == v {
+                    kept -= 1;
+                    continue;
+                }
+                path[kept] = v;
+                kept += 1;
             }
+            path.truncate(kept);
         }
     }
 
