@@ -279,9 +279,9 @@ fn fill_notches(sheet: &mut Sheet, thickness: f64) {
     let adjacency = Adjacency::new(&TriMesh::new(sheet.positions.clone(), sheet.faces.clone()));
     let mut found: Vec<([u32; 3], u32)> = Vec::new();
     for mut outline in adjacency.boundary_loops() {
-        let first = adjacency.find_edge(outline[0], outline[1]).map(|e| adjacency.half_edges(e));
-        let Some([h]) = first else { continue };
-        let (beside, runs_along) = (*h / 3, adjacency.ends(*h) == [outline[0], outline[1]]);
+        let [first, second, ..] = outline[..] else { continue };
+        let Some([h]) = adjacency.find_edge(first, second).map(|e| adjacency.half_edges(e)) else { continue };
+        let (beside, runs_along) = (*h / 3, adjacency.ends(*h) == [first, second]);
         let mut ears = Vec::new();
         while (3..=NOTCH_EDGES).contains(&outline.len()) {
             let n = outline.len();
