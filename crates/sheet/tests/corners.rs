@@ -82,8 +82,18 @@ fn rounded_box(outer: f64, inner: f64, chords: u32) -> TriMesh {
 
 #[test]
 fn corners_of_other_centres_are_one_sheet() {
-    for (outer, inner, chords) in [(2.0, 1.0, 4), (3.0, 2.0, 4), (4.0, 1.0, 5), (5.0, 5.0, 3), (8.0, 7.0, 4)]
-    {
+    for (outer, inner, chords) in [
+        (2.0, 1.0, 4),
+        (3.0, 2.0, 4),
+        (4.0, 1.0, 5),
+        (5.0, 5.0, 3),
+        (8.0, 7.0, 4),
+        (3.0, 2.0, 12),
+        (4.0, 0.5, 12),
+        (5.0, 1.0, 14),
+        (8.0, 7.0, 16),
+        (8.0, 5.0, 12),
+    ] {
         let what = format!("rounds {outer}, fillets {inner} in {chords}");
         let solid = rounded_box(outer, inner, chords);
         for solid in [&solid, &turned(&solid)] {

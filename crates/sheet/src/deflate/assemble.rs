@@ -37,7 +37,7 @@ pub(super) enum Source {
 }
 
 /// A mid-surface as it is being made.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Sheet {
     pub(super) positions: Vec<DVec3>,
     pub(super) faces: Vec<[u32; 3]>,
@@ -54,7 +54,7 @@ pub(super) struct Sheet {
 /// Where the solid's nodes go.
 pub(super) struct Moved {
     pub(super) positions: Vec<DVec3>,
-    /// Whether a node lies beside facets and is only as exact as they are.
+    /// Whether a node lies beside facets and not just on planes: then it is only as exact as chords are.
     pub(super) soft: Vec<bool>,
     /// Whether a node is on a blend and belongs to what is behind that.
     pub(super) blended: Vec<bool>,

@@ -19,6 +19,9 @@ const FLARE: f64 = 5.0 / 180.0 * std::f64::consts::PI;
 const TURNED: f64 = 0.5;
 /// Faces belong to a rim if they are within this share of the thickness of it.
 const RIM: f64 = 0.1;
+/// The inside of a bend is parallel to the outside up to this, in radians, on this share of it.
+const ALONG: f64 = 20.0 / 180.0 * std::f64::consts::PI;
+const MOST: f64 = 0.6;
 /// Looks beside a border begin this share of the way from it to the middle of the face.
 const INSET: f64 = 0.05;
 
@@ -80,7 +83,10 @@ impl Walls {
             }
             // A fillet runs along another wall, is hollow and narrow.
             let area: f64 = part.iter().map(|f| solid.areas[*f as usize]).sum();
-            let is_flare = border > 0.0 && hollow > 0.0 && area < self.max_thickness * border;
+            let is_flare = border > 0.0
+                && hollow > 0.0
+                && area < self.max_thickness * border
+                && !self.is_inside_of_a_bend(solid, segments, &part);
             let is_rim = !is_flare && self.is_rim(solid, segments, &looks_past, &part, &sides, &ends);
             if is_rim {
                 self.widen(solid, segments, &mut part, &mut seen);
@@ -157,7 +163,14 @@ impl Walls {
 
     /// Fillets that curved walls run into: hollow faces without an exact partner, beside faces of their group that have one. What is
     /// opposite to facets of them is so by chance.
-    pub(super) fn fillets(&self, segments: &Segments, faces: &Faces, pairs: &[WallPair]) -> Vec<Vec<u32>> {
+    /// What a round faces all along is no fillet but the inside of a bend.
+    pub(super) fn fillets(
+        &self,
+        solid: &Solid,
+        segments: &Segments,
+        faces: &Faces,
+        pairs: &[WallPair],
+    ) -> Vec<Vec<u32>> {
         let mut has_partner = vec![false; faces.list.len()];
         pairs.iter().flat_map(|p| p.faces).for_each(|f| has_partner[f] = true);
         let group = |face: &Face| segments.of(face.triangles[0]);
@@ -172,7 +185,12 @@ impl Walls {
                 _ => false,
             };
             let g = group(face);
-            !**has_partner && face.concave && small && has_wall[g as usize] && self.is_wall[g as usize]
+            !**has_partner
+                && face.concave
+                && small
+                && has_wall[g as usize]
+                && self.is_wall[g as usize]
+                && !self.is_inside_of_a_bend(solid, segments, &face.triangles)
         };
         faces
             .list
@@ -181,5 +199,17 @@ impl Walls {
             .filter(is_fillet)
             .map(|(face, _)| face.triangles.clone())
             .collect()
+    }
+
+    /// Whether most of a face is nearly parallel to what is opposite: a fillet is so only where it ends.
+    fn is_inside_of_a_bend(&self, solid: &Solid, segments: &Segments, triangles: &[u32]) -> bool {
+        let faces_along = |f: &&u32| {
+            let opposite = self.opposite_middle(solid, segments, **f);
+            opposite.is_some_and(|o| {
+                solid.normals[**f as usize].dot(-solid.normals[o.face as usize]) > ALONG.cos()
+            })
+        };
+        let area = |of: &mut dyn Iterator<Item = &u32>| of.map(|f| solid.areas[*f as usize]).sum::<f64>();
+        area(&mut triangles.iter().filter(faces_along)) > MOST * area(&mut triangles.iter())
     }
 }

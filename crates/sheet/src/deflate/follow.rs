@@ -111,40 +111,30 @@ fn narrow(solid: &Solid, f: u32) -> f64 {
 }
 
 /// What is needed to look at a sheet from within.
-struct Follow<'a> {
-    remesh: Remesh<'a>,
-    solid: &'a Solid,
-    segments: &'a Segments,
-    walls: &'a Walls,
-    exact: &'a Exact,
-    twins: &'a Twins,
-}
-
-/// Refines the curved pieces of a sheet; with an edge length, meshes them anew to about that. O(n log n) a round.
-pub(super) fn follow(
-    sheet: &mut Sheet,
-    solid: &Solid,
-    segments: &Segments,
-    walls: &Walls,
-    exact: &Exact,
-    twins: &Twins,
-    edge_length: Option<f64>,
-) {
-    if !sheet.sources.iter().any(|s| matches!(s, Source::Facet(_))) {
-        return;
-    }
-    let follow = Follow { remesh: Remesh { solid }, solid, segments, walls, exact, twins };
-    match edge_length {
-        Some(length) => follow.mesh_to(sheet, length),
-        None => follow.refine(sheet),
-    }
-    // Edges have closed.
-    *sheet = std::mem::take(sheet).without_unused_nodes();
+pub(super) struct Follow<'a> {
+    pub(super) remesh: Remesh<'a>,
+    pub(super) segments: &'a Segments,
+    pub(super) walls: &'a Walls,
+    pub(super) exact: &'a Exact,
+    pub(super) twins: &'a Twins,
 }
 
 impl Follow<'_> {
+    /// Refines the curved pieces of a sheet; with an edge length, meshes them anew to about that. O(n log n) a round.
+    pub(super) fn run(&self, sheet: &mut Sheet, edge_length: Option<f64>) {
+        if !sheet.sources.iter().any(|s| matches!(s, Source::Facet(_))) {
+            return;
+        }
+        match edge_length {
+            Some(length) => self.mesh_to(sheet, length),
+            None => self.refine(sheet),
+        }
+        // Edges have closed.
+        *sheet = std::mem::take(sheet).without_unused_nodes();
+    }
+
     fn refine(&self, sheet: &mut Sheet) {
-        let most = MOST_TIMES * self.solid.mesh.faces.len().max(MOST_ANYWAY);
+        let most = MOST_TIMES * self.remesh.solid.mesh.faces.len().max(MOST_ANYWAY);
         let short: Vec<f64> = (0..self.segments.groups.len() as u32).map(|g| self.short(g)).collect();
         // Faces with twins are as they should be.
         let of = |(f, g): (u32, &u32)| if self.twins.has(f) { 0.0 } else { short[*g as usize] };
@@ -198,7 +188,7 @@ impl Follow<'_> {
         let middle = (p + q + r) / 3.0;
         let seen = |k: usize| {
             let from = corners[k].lerp(middle, WITHIN);
-            between(self.solid, self.segments, self.walls, from, normal).map(|seen| seen.thickness)
+            between(self.remesh.solid, self.segments, self.walls, from, normal).map(|seen| seen.thickness)
         };
         let thickness = [seen(0)?, seen(1)?, seen(2)?];
         let change = |k: usize| (thickness[k] - thickness[(k + 1) % 3]).abs() / (1.0 - WITHIN);
@@ -237,7 +227,7 @@ impl Follow<'_> {
         let normal = (b - a).cross(d - c).normalize_or_zero();
         // What leaves the wall is not seen between its sides.
         let off = |[p, q]: [DVec3; 2]| {
-            let seen = between(self.solid, self.segments, self.walls, p.midpoint(q), normal);
+            let seen = between(self.remesh.solid, self.segments, self.walls, p.midpoint(q), normal);
             seen.map_or(f64::INFINITY, |seen| seen.off.length() / seen.thickness)
         };
         let new = off([c, d]);
@@ -289,7 +279,7 @@ impl Follow<'_> {
                 let normal = Some(normals[v].normalize_or_zero());
                 let normal = normal.filter(|n| nodes.inside[v] && *n != DVec3::ZERO)?;
                 let p = sheet.positions[v];
-                let seen = between(self.solid, self.segments, self.walls, p, normal)?;
+                let seen = between(self.remesh.solid, self.segments, self.walls, p, normal)?;
                 let off = seen.off.clamp_length_max(NODE_REACH * shortest[v]);
                 (off.length() > NODE_OFF * seen.thickness).then_some(p + off)
             })
@@ -357,7 +347,7 @@ impl Follow<'_> {
             let [p, q, r] = nodes.mesh.corners(h / 3);
             let normal = (q - p).cross(r - p).normalize_or_zero();
             let from = middle.lerp((p + q + r) / 3.0, INSET);
-            if let Some(seen) = between(self.solid, self.segments, self.walls, from, normal) {
+            if let Some(seen) = between(self.remesh.solid, self.segments, self.walls, from, normal) {
                 (off, thickness, count) = (off + seen.off, thickness + seen.thickness, count + 1.0);
             }
         }
@@ -371,10 +361,10 @@ impl Follow<'_> {
             let Source::Facet(old) = *source else { return *source };
             let [a, b, c] = face.map(|v| sheet.positions[v as usize]);
             let normal = (b - a).cross(c - a).normalize_or_zero();
-            let hit = self.walls.first(self.solid, (a + b + c) / 3.0, normal);
+            let hit = self.walls.first(self.remesh.solid, (a + b + c) / 3.0, normal);
             let same = |f: u32| {
                 self.segments.of(f) == self.segments.of(old)
-                    && self.solid.normals[f as usize].dot(normal) > 0.5
+                    && self.remesh.solid.normals[f as usize].dot(normal) > 0.5
             };
             hit.filter(|hit| same(hit.face)).map_or(*source, |hit| Source::Facet(hit.face))
         };
@@ -396,7 +386,7 @@ struct Look {
 /// Meshes a sheet of flat facets to about an edge length where it lies: long edges are split, and diagonals turned within planes.
 /// O(n log n) a round.
 pub(super) fn split_to(sheet: &mut Sheet, solid: &Solid, length: f64) {
-    let remesh = Remesh { solid };
+    let remesh = Remesh { solid, held: &[] };
     let is_flat = |diagonal: &Diagonal<'_>| {
         let [[a, b], [c, d]] =
             [diagonal.old, diagonal.new].map(|ends| ends.map(|v| diagonal.positions[v as usize]));

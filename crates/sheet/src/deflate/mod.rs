@@ -45,14 +45,14 @@ use std::collections::BTreeSet;
 
 use mesh_kernel::TriMesh;
 
-use assemble::{Moved, Sheet, Source};
+use assemble::{Sheet, Source};
 use blends::Blends;
 use exact::Exact;
 use faces::Faces;
 use features::Features;
 use middle::Middles;
 use patches::patched;
-use replace::Replacement;
+use replace::{Replacement, Way};
 use segments::Segments;
 use sides::kept_groups;
 use solid::Solid;
@@ -159,7 +159,7 @@ pub fn deflate(
     }
     let mut faces = Faces::new(&solid, &segments);
     let mut wall_pairs = report::wall_pairs(&solid, &segments, &walls, &faces);
-    let fillets = walls.fillets(&segments, &faces, &wall_pairs);
+    let fillets = walls.fillets(&solid, &segments, &faces, &wall_pairs);
     if !fillets.is_empty() {
         segments.split_off(&fillets, &solid);
         walls.pair(&solid, &segments, options);
@@ -184,11 +184,10 @@ pub fn deflate(
         }
     }
     let corners = middles.at_corners(&solid, &segments, &walls);
-    let twins = Twins::new(&solid, &walls);
+    let star = star::Star::new(&solid.mesh.faces, solid.mesh.positions.len());
+    let twins = Twins::new(&solid, &walls, &star);
     let replacement = Replacement::new(&solid, &segments, &walls, &middles, &blends, &corners, &twins);
-    let nodes = 0..solid.mesh.positions.len() as u32;
-    let blended = nodes.map(|v| !blends.behind(v).is_empty()).collect();
-    let moved = Moved { positions: replacement.positions(), soft: replacement.beside_facets(), blended };
+    let meeting = replacement.moved(Way::Meeting);
     begin(Step::Stitch)?;
     let others = kept_groups(&solid, &segments, &walls, &blends, &middles.of_group, true);
     let trials = Trials {
@@ -196,13 +195,13 @@ pub fn deflate(
         segments: &segments,
         walls: &walls,
         middles: &middles,
-        moved: &moved,
+        replacement: &replacement,
         exact: &exact,
         twins: &twins,
         options,
     };
     let Chosen { made: Made { sheet, crossing, .. }, with_features } =
-        trials.best(&features.gone, &kept, &others, watcher)?;
+        trials.best(&features.gone, &kept, &others, meeting, watcher)?;
     if with_features {
         features.undo();
     }
@@ -236,7 +235,7 @@ pub fn deflate(
         max_thickness: walls.max_thickness,
         paired_share: walls.paired_share,
         steps: steps_of(&sheet, &segments, &walls),
-        self_intersections: crossing,
+        self_intersections: crossing.len(),
         lost_edges: sheet.lost,
         solid_volume: solid.volume,
     };

@@ -44,6 +44,8 @@ pub(super) type May<'a> = dyn Fn(&Diagonal<'_>) -> bool + Sync + 'a;
 /// A sheet with what its faces came from.
 pub(super) struct Remesh<'a> {
     pub(super) solid: &'a Solid,
+    /// Whether what came from each face of the solid stays as it is; empty: nothing does.
+    pub(super) held: &'a [bool],
 }
 
 /// What is known of the nodes of a sheet.
@@ -68,10 +70,15 @@ impl Nodes {
 }
 
 impl Remesh<'_> {
-    /// The normal that a curved face had on the solid.
+    /// The normal that a curved face had on the solid; none for what stays as it is.
     pub(super) fn normal(&self, sheet: &Sheet, f: u32) -> Option<DVec3> {
-        match sheet.sources[f as usize] {
-            Source::Facet(source) => Some(self.solid.normals[source as usize]),
+        self.free(sheet.sources[f as usize]).map(|source| self.solid.normals[source as usize])
+    }
+
+    /// What a face came from, if it is of a curved piece and not held.
+    fn free(&self, source: Source) -> Option<u32> {
+        match source {
+            Source::Facet(f) => (!self.held.get(f as usize).is_some_and(|held| *held)).then_some(f),
             Source::Plane(_) => None,
         }
     }
@@ -82,7 +89,7 @@ impl Remesh<'_> {
         let adjacency = Adjacency::new(&mesh);
         let mut inside = vec![true; sheet.positions.len()];
         for (face, source) in sheet.faces.iter().zip(&sheet.sources) {
-            if matches!(source, Source::Plane(_)) {
+            if self.free(*source).is_none() {
                 face.iter().for_each(|v| inside[*v as usize] = false);
             }
         }

@@ -4,6 +4,7 @@
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
+use super::assemble::Moved;
 use super::blends::{Belongs, Blends};
 use super::middle::{Middle, Middles};
 use super::plane::Plane;
@@ -38,8 +39,22 @@ const AGREED: f64 = 2e-3;
 const TWIN_OFF: f64 = 0.01;
 /// A node does not move farther than this many thicknesses for it.
 const REACH: f64 = 0.75;
+/// A wall is smooth at a node if its facets lean by less than this from their mean, in radians.
+const SMOOTH: f64 = 20.0 / 180.0 * std::f64::consts::PI;
+/// Rounds of moving the nodes of facets that turned over upright.
+const TURNED_ROUNDS: usize = 4;
 /// A chain of edges that turns by more than this, in radians, has a corner there.
 const CORNER_TURN: f64 = std::f64::consts::FRAC_PI_4;
+
+/// How nodes of smooth curved walls move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Way {
+    /// To where the middles of their facets meet.
+    Meeting,
+    /// Along their normals. Where the thickness changes in a bend, the middles of facets meet aside, so far that fine facets pass each
+    /// other.
+    Upright,
+}
 
 /// What is needed to move nodes.
 pub(super) struct Replacement<'a> {
@@ -82,16 +97,42 @@ impl<'a> Replacement<'a> {
         Self { solid, segments, walls, middles, blends, corners, twins, star }
     }
 
-    /// Whether each node lies beside facets and not just on planes: then it is only as exact as chords are. O(n).
-    pub(super) fn beside_facets(&self) -> Vec<bool> {
+    /// Where all nodes move to; those of facets that would turn over move upright in any case. O(n).
+    pub(super) fn moved(&self, way: Way) -> Moved {
         let nodes = self.solid.mesh.positions.len() as u32;
-        (0..nodes).into_par_iter().map(|v| !self.wanted(v).facets.is_empty()).collect()
+        let mut ways = vec![way; nodes as usize];
+        let mut positions = self.positions(&ways);
+        for _ in 0..TURNED_ROUNDS {
+            let mut more = false;
+            for f in (0..self.solid.len()).filter(|f| self.turns_over(*f, &positions)) {
+                for v in self.solid.mesh.faces[f as usize] {
+                    more |= std::mem::replace(&mut ways[v as usize], Way::Upright) != Way::Upright;
+                }
+            }
+            if !more {
+                break;
+            }
+            positions = self.positions(&ways);
+        }
+        Moved {
+            positions,
+            soft: (0..nodes).into_par_iter().map(|v| !self.wanted(v).facets.is_empty()).collect(),
+            blended: (0..nodes).map(|v| !self.blends.behind(v).is_empty()).collect(),
+        }
     }
 
-    /// Where all nodes move to. O(n).
-    pub(super) fn positions(&self) -> Vec<DVec3> {
+    /// Whether a facet of a curved wall faces away from where it faced. Plane walls are filled anew from their outlines.
+    fn turns_over(&self, f: u32, positions: &[DVec3]) -> bool {
+        let [a, b, c] = self.solid.mesh.faces[f as usize].map(|v| positions[v as usize]);
+        let g = self.segments.of(f);
+        let is_curved = self.walls.is_wall[g as usize] && self.segments.group(g).plane.is_none();
+        is_curved && (b - a).cross(c - a).dot(self.solid.normals[f as usize]) < 0.0
+    }
+
+    fn positions(&self, ways: &[Way]) -> Vec<DVec3> {
         let nodes = self.solid.mesh.positions.len() as u32;
-        let mut moved: Vec<DVec3> = (0..nodes).into_par_iter().map(|v| self.place(v, DVec3::ZERO)).collect();
+        let mut moved: Vec<DVec3> =
+            (0..nodes).into_par_iter().map(|v| self.place(v, DVec3::ZERO, ways[v as usize])).collect();
         // Along a chain between two corners nodes go with its ends, or those near a corner would be passed by it.
         for chain in self.chains() {
             let at = |v: u32| self.solid.mesh.positions[v as usize];
@@ -110,7 +151,11 @@ impl<'a> Replacement<'a> {
             let places: Vec<DVec3> = (1..last)
                 .map(|k| {
                     let s = lengths[k] / whole;
-                    self.place(chain[k], tangent(k) * (first_shift * (1.0 - s) + last_shift * s))
+                    self.place(
+                        chain[k],
+                        tangent(k) * (first_shift * (1.0 - s) + last_shift * s),
+                        ways[chain[k] as usize],
+                    )
                 })
                 .collect();
             for (k, place) in (1..last).zip(places) {
@@ -165,7 +210,7 @@ impl<'a> Replacement<'a> {
         chains
     }
 
-    fn place(&self, v: u32, along: DVec3) -> DVec3 {
+    fn place(&self, v: u32, along: DVec3, way: Way) -> DVec3 {
         let p = self.solid.mesh.positions[v as usize];
         let mut wanted = self.wanted(v);
         let planes = independent(&wanted);
@@ -177,7 +222,7 @@ impl<'a> Replacement<'a> {
         if wanted.facets.is_empty() {
             start
         } else {
-            beside_facets(start, &planes, &wanted.facets, wanted.thickness)
+            beside_facets(start, &planes, &wanted.facets, wanted.thickness, way)
         }
     }
 
@@ -369,7 +414,7 @@ fn step_to(p: DVec3, planes: &[Plane]) -> DVec3 {
 }
 
 /// The point on the planes that is as near to the planes of facets as can be (least squares), and otherwise beside `p`.
-fn beside_facets(p: DVec3, planes: &[Plane], facets: &[(Plane, f64)], thickness: f64) -> DVec3 {
+fn beside_facets(p: DVec3, planes: &[Plane], facets: &[(Plane, f64)], thickness: f64, way: Way) -> DVec3 {
     // What the planes leave free.
     let free = match planes {
         [] => DMat3::IDENTITY,
@@ -388,6 +433,9 @@ fn beside_facets(p: DVec3, planes: &[Plane], facets: &[(Plane, f64)], thickness:
         below += w * slope * slope;
     }
     let start = if below > 1e-6 * weight { p - direction * (above / below) } else { p };
+    if way == Way::Upright && facets.iter().all(|(plane, _)| plane.normal.dot(direction) > SMOOTH.cos()) {
+        return on_planes(start, planes);
+    }
     let (mut matrix, mut right) = (DMat3::ZERO, DVec3::ZERO);
     for (plane, w) in facets {
         let n = free * plane.normal;

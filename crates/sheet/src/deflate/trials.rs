@@ -3,18 +3,22 @@
 //! Which side of a wall knows more, and whether what was to be removed is better gone, is only seen when the sheet is there: whether it
 //! crosses itself, has lost edges, or has left the middle of its walls.
 
+use std::cell::OnceCell;
+
 use mesh_kernel::TriMesh;
 
-use super::assemble::{Moved, Sheet, assemble};
+use super::assemble::{Moved, Sheet, Source, assemble};
 use super::exact::Exact;
-use super::follow::{follow, split_to};
+use super::follow::{Follow, split_to};
 use super::middle::Middles;
 use super::offset::read_off;
+use super::remesh::Remesh;
+use super::replace::{Replacement, Way};
 use super::segments::Segments;
 use super::solid::Solid;
 use super::topology::Topology;
 use super::twins::Twins;
-use super::untangle::{astray, untangle};
+use super::untangle::{astray, crossing_faces, untangle};
 use super::walls::Walls;
 use super::{DeflateError, DeflateOptions, Watcher};
 
@@ -24,6 +28,8 @@ const FOLDED: f64 = 5e-3;
 const ASTRAY: f64 = 0.05;
 /// A sheet is truer than another if it has less than this share of what that has astray.
 const TRUER: f64 = 0.5;
+/// So many times what comes to cross is held before.
+const HOLDINGS: usize = 5;
 
 /// What all trials are made of.
 pub(super) struct Trials<'a> {
@@ -31,7 +37,7 @@ pub(super) struct Trials<'a> {
     pub(super) segments: &'a Segments,
     pub(super) walls: &'a Walls,
     pub(super) middles: &'a Middles,
-    pub(super) moved: &'a Moved,
+    pub(super) replacement: &'a Replacement<'a>,
     pub(super) exact: &'a Exact,
     pub(super) twins: &'a Twins,
     pub(super) options: &'a DeflateOptions,
@@ -41,7 +47,7 @@ pub(super) struct Trials<'a> {
 pub(super) struct Made {
     pub(super) sheet: Sheet,
     /// Pairs of faces that cross.
-    pub(super) crossing: usize,
+    pub(super) crossing: Vec<(u32, u32)>,
     /// The share of its curved pieces that is not in the middle of the wall.
     astray: f64,
 }
@@ -55,7 +61,7 @@ pub(super) struct Chosen {
 
 impl Made {
     fn faults(&self) -> usize {
-        self.crossing + self.sheet.lost
+        self.crossing.len() + self.sheet.lost
     }
 
     /// How many joints and parts it has.
@@ -67,8 +73,8 @@ impl Made {
 }
 
 impl Trials<'_> {
-    /// Makes the sheet of the kept groups, without those that are gone. What comes out crossed or astray is tried facet by facet, with the
-    /// other sides of walls, and with what was to be removed.
+    /// Makes the sheet of the kept groups, without those that are gone, with nodes where middles meet. What comes out crossed or astray is
+    /// tried facet by facet, with nodes moved upright, with the other sides of walls, and with what was to be removed.
     ///
     /// # Errors
     /// [`DeflateError::Cancelled`] between two trials.
@@ -77,26 +83,39 @@ impl Trials<'_> {
         gone: &[bool],
         kept: &[bool],
         others: &[bool],
+        meeting: Moved,
         watcher: &dyn Watcher,
     ) -> Result<Chosen, DeflateError> {
-        let mut best = self.stitched(gone, kept);
+        let (assembled, mut best) = self.as_it_comes(gone, kept, &meeting);
         if best.faults() > 0 || best.astray > FOLDED {
-            best = self.read_off().filter(|made| made.faults() == 0).unwrap_or(best);
+            let read_off = self.read_off().filter(|made| made.faults() == 0);
+            best = match read_off {
+                Some(made) => made,
+                None if best.crossing.is_empty() => best,
+                None => self.mended(assembled, best),
+            };
         }
         let with_all = vec![false; gone.len()];
-        let without = [(gone, others)];
-        let with: &[_] = &[(&with_all[..], kept), (&with_all[..], others)];
+        let upright = OnceCell::new();
+        let without =
+            [(gone, kept, Way::Upright), (gone, others, Way::Meeting), (gone, others, Way::Upright)];
+        let with: &[_] = &[(&with_all[..], kept, Way::Meeting), (&with_all[..], others, Way::Meeting)];
         let with = if gone.contains(&true) { with } else { &[] };
         let mut with_features = false;
-        for (k, (gone, kept)) in without.iter().chain(with).enumerate() {
-            let is_with = k > 0;
+        for (k, (gone, kept, way)) in without.iter().chain(with).enumerate() {
+            let is_with = k >= without.len();
             if best.faults() == 0 && (best.astray < ASTRAY || is_with) {
                 break;
             }
             if watcher.cancelled() {
                 return Err(DeflateError::Cancelled);
             }
-            let trial = self.stitched(gone, kept);
+            let trial = match way {
+                Way::Meeting => self.stitched(gone, kept, &meeting),
+                Way::Upright => {
+                    self.stitched(gone, kept, upright.get_or_init(|| self.replacement.moved(*way)))
+                }
+            };
             let fewer = trial.faults() < best.faults();
             let truer = trial.faults() == best.faults() && trial.astray < TRUER * best.astray;
             // Where it does not meet the rest, it is in pieces or has joints beside each other. With features it has more anyway.
@@ -109,12 +128,54 @@ impl Trials<'_> {
         Ok(Chosen { made: best, with_features })
     }
 
-    fn stitched(&self, gone: &[bool], kept: &[bool]) -> Made {
-        let Self { solid, segments, walls, middles, moved, exact, twins, options } = *self;
+    /// The sheet stitched together. If it crosses itself, it is mended.
+    fn stitched(&self, gone: &[bool], kept: &[bool], moved: &Moved) -> Made {
+        let (assembled, made) = self.as_it_comes(gone, kept, moved);
+        if made.crossing.is_empty() { made } else { self.mended(assembled, made) }
+    }
+
+    /// The sheet before it follows the middle, and after it.
+    fn as_it_comes(&self, gone: &[bool], kept: &[bool], moved: &Moved) -> (Sheet, Made) {
+        let Self { solid, segments, walls, middles, options, .. } = *self;
         let kept: Vec<bool> = kept.iter().zip(gone).map(|(kept, gone)| *kept && !gone).collect();
-        let mut sheet = assemble(solid, segments, walls, middles, gone, &kept, moved, options);
-        follow(&mut sheet, solid, segments, walls, exact, twins, options.edge_length);
+        let assembled = assemble(solid, segments, walls, middles, gone, &kept, moved, options);
+        let made = self.followed(assembled.clone(), &[]);
+        (assembled, made)
+    }
+
+    /// A sheet that follows the middle, but for what is held.
+    fn followed(&self, mut sheet: Sheet, held: &[bool]) -> Made {
+        let Self { solid, segments, walls, exact, twins, options, .. } = *self;
+        let remesh = Remesh { solid, held };
+        Follow { remesh, segments, walls, exact, twins }.run(&mut sheet, options.edge_length);
         self.made(sheet)
+    }
+
+    /// A sheet that crosses itself after following the middle: what crosses before is drawn, what comes to cross is held as it was.
+    fn mended(&self, mut assembled: Sheet, made: Made) -> Made {
+        let Self { solid, segments, walls, options, .. } = *self;
+        let mut best = made;
+        let mut held = vec![false; solid.len() as usize];
+        untangle(&mut assembled, solid, segments, walls);
+        let holdings = if options.edge_length.is_some() { 1 } else { HOLDINGS };
+        for _ in 0..holdings {
+            let made = self.followed(assembled.clone(), &held);
+            let crossing = made.crossing.iter().flat_map(|(f, g)| [*f, *g]);
+            let mut more = false;
+            for f in crossing {
+                if let Source::Facet(f) = made.sheet.sources[f as usize] {
+                    more |= !std::mem::replace(&mut held[f as usize], true);
+                }
+            }
+            if made.faults() < best.faults() {
+                best = made;
+            }
+            if !more {
+                break;
+            }
+        }
+        untangle(&mut best.sheet, solid, segments, walls);
+        self.made(best.sheet)
     }
 
     /// The sheet read off facet by facet, if it can be.
@@ -126,9 +187,9 @@ impl Trials<'_> {
         Some(self.made(sheet))
     }
 
-    fn made(&self, mut sheet: Sheet) -> Made {
+    fn made(&self, sheet: Sheet) -> Made {
         let Self { solid, segments, walls, .. } = *self;
-        let crossing = untangle(&mut sheet, solid, segments, walls);
+        let crossing = crossing_faces(&sheet, |_| true);
         let astray = astray(&sheet, solid, segments, walls);
         Made { sheet, crossing, astray }
     }

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 
 use super::seams::Merged;
 use super::solid::Solid;
+use super::star::Star;
 use super::walls::Walls;
 
 /// Twin faces are parallel up to this, in radians.
@@ -24,6 +25,8 @@ const STAY: f64 = 1e-6;
 const OFF: f64 = 0.01;
 /// Corners of the others up to this share of the thickness: folds shift them.
 const ASIDE: f64 = 1.2;
+/// They are so far aside, over the thickness, without any.
+const HARDLY_ASIDE: f64 = 0.02;
 
 /// Twin of a face: the other face, and which of its corners belongs to the first one.
 type Twin = (u32, u32);
@@ -38,9 +41,9 @@ pub(super) struct Twins {
 
 impl Twins {
     /// Finds pairs of faces that lie opposite to each other, and from these on their neighbours. O(n log n).
-    pub(super) fn new(solid: &Solid, walls: &Walls) -> Self {
+    pub(super) fn new(solid: &Solid, walls: &Walls, star: &Star) -> Self {
         let mut twins = Self { faces: vec![None; solid.len() as usize], middles: Vec::new() };
-        let first = |f: u32| twins.first(solid, walls, f);
+        let first = |f: u32| twins.first(solid, walls, star, f);
         let firsts: Vec<Option<Twin>> = (0..solid.len()).into_par_iter().map(first).collect();
         let mut queue = VecDeque::new();
         for (f, found) in (0u32..).zip(firsts) {
@@ -48,7 +51,7 @@ impl Twins {
             twins.join(f, found, &mut queue);
             while let Some(f) = queue.pop_front() {
                 for (other, twin) in twins.beside(solid, f) {
-                    if is_pair(solid, walls, other, twin) {
+                    if is_pair(solid, walls, star, other, twin) {
                         twins.join(other, twin, &mut queue);
                     }
                 }
@@ -86,16 +89,17 @@ impl Twins {
     }
 
     /// Whether a face and what is seen from its middle are twins beyond doubt: their neighbours are so too.
-    fn first(&self, solid: &Solid, walls: &Walls, f: u32) -> Option<Twin> {
+    fn first(&self, solid: &Solid, walls: &Walls, star: &Star, f: u32) -> Option<Twin> {
         let seen = walls.behind(solid, f)?;
         let [a, b, c] = solid.mesh.corners(f);
         let shortest = a.distance(b).min(b.distance(c)).min(c.distance(a));
         let candidate = (0..3).map(|first| (seen.face, first)).find(|twin| {
             let near = |k| aside(solid, f, *twin, k).0 < ASIDE_FIRST * shortest;
-            (0..3).all(near) && is_pair(solid, walls, f, *twin)
+            (0..3).all(near) && is_pair(solid, walls, star, f, *twin)
         })?;
         let sound = |k| {
-            beside(solid, f, candidate, k).is_some_and(|(other, twin)| is_pair(solid, walls, other, twin))
+            beside(solid, f, candidate, k)
+                .is_some_and(|(other, twin)| is_pair(solid, walls, star, other, twin))
         };
         (0..3).all(sound).then_some(candidate)
     }
@@ -191,8 +195,31 @@ fn aside(solid: &Solid, f: u32, (g, first): Twin, k: u32) -> (f64, f64) {
     ((across - normal * thickness).length(), thickness)
 }
 
+/// Whether the folds about the two nodes that corner `k` belongs to explain how far it stands aside: what does so anywhere else is not an
+/// offset, but meshed in nearly the same way.
+fn is_aside_by_folds(
+    solid: &Solid,
+    star: &Star,
+    f: u32,
+    (g, first): Twin,
+    k: u32,
+    (aside, thickness): (f64, f64),
+) -> bool {
+    if aside < HARDLY_ASIDE * thickness {
+        return true;
+    }
+    let least = |f: u32, k: usize| {
+        let normal = solid.normals[f as usize];
+        let about = star.of(solid.mesh.faces[f as usize][k]).iter();
+        about.map(|c| normal.dot(solid.normals[*c as usize / 3])).fold(1.0, f64::min)
+    };
+    let cosine = least(f, k as usize).min(least(g, opposite(first, k)));
+    let tangent = (1.0 - cosine * cosine).max(0.0).sqrt() / cosine;
+    cosine <= 0.0 || aside < (tangent + HARDLY_ASIDE) * thickness
+}
+
 /// Whether two faces are parallel, as far from each other at all corners, and opposite to each other.
-fn is_pair(solid: &Solid, walls: &Walls, f: u32, twin: Twin) -> bool {
+fn is_pair(solid: &Solid, walls: &Walls, star: &Star, f: u32, twin: Twin) -> bool {
     let (g, first) = twin;
     if f == g || solid.normals[f as usize].dot(-solid.normals[g as usize]) < LEAN.cos() {
         return false;
@@ -201,7 +228,9 @@ fn is_pair(solid: &Solid, walls: &Walls, f: u32, twin: Twin) -> bool {
     let [thinnest, thickest] =
         [f64::min, f64::max].map(|of| corners[1..].iter().fold(corners[0].1, |t, c| of(t, c.1)));
     let even = thinnest > 0.0 && thickest <= walls.max_thickness && thickest - thinnest < EVEN * thickest;
-    let near = corners.iter().all(|c| c.0 < ASIDE * thickest);
+    let near = (0..3u32)
+        .zip(&corners)
+        .all(|(k, c)| c.0 < ASIDE * thickest && is_aside_by_folds(solid, star, f, twin, k, *c));
     let at = |f: u32, k: usize| solid.mesh.positions[solid.mesh.faces[f as usize][k] as usize];
     let [a, b, c] = [0, 1, 2].map(|k: u32| at(f, k as usize).midpoint(at(g, opposite(first, k))));
     let upright = (b - a).cross(c - a).dot(solid.normals[f as usize]) > 0.0;

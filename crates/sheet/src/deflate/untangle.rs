@@ -32,13 +32,13 @@ const LOOKED_AT: usize = 20_000;
 /// Nodes hold each other as if they were at least this share of all edges apart.
 const LEAST: f64 = 1e-3;
 
-/// Draws what crosses; how many pairs of faces cross afterwards. O(n log n).
-pub(super) fn untangle(sheet: &mut Sheet, solid: &Solid, segments: &Segments, walls: &Walls) -> usize {
+/// Draws what crosses. O(n log n).
+pub(super) fn untangle(sheet: &mut Sheet, solid: &Solid, segments: &Segments, walls: &Walls) {
     let mut crossing = crossing_faces(sheet, |_| true);
     if crossing.is_empty() {
-        return 0;
+        return;
     }
-    let mut nodes = Remesh { solid }.nodes(sheet);
+    let mut nodes = Remesh { solid, held: &[] }.nodes(sheet);
     for rings in RINGS {
         let mut drawn: Vec<BTreeSet<u32>> = Vec::new();
         for cluster in clusters(sheet, &nodes, &crossing, rings) {
@@ -64,7 +64,6 @@ pub(super) fn untangle(sheet: &mut Sheet, solid: &Solid, segments: &Segments, wa
             break;
         }
     }
-    crossing.len()
 }
 
 /// The share of the curved pieces that has left the middle of its wall, told from some of the faces. O(log n).
@@ -79,7 +78,7 @@ pub(super) fn astray(sheet: &Sheet, solid: &Solid, segments: &Segments, walls: &
 }
 
 /// Pairs of faces that cross, of those that are looked at.
-fn crossing_faces(sheet: &Sheet, looked_at: impl Fn(&[u32; 3]) -> bool + Sync) -> Vec<(u32, u32)> {
+pub(super) fn crossing_faces(sheet: &Sheet, looked_at: impl Fn(&[u32; 3]) -> bool + Sync) -> Vec<(u32, u32)> {
     let faces: Vec<u32> = (0..sheet.faces.len() as u32)
         .into_par_iter()
         .filter(|f| looked_at(&sheet.faces[*f as usize]))
