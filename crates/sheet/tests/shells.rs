@@ -80,3 +80,81 @@ fn sides_that_are_meshed_nearly_alike_are_not_taken_for_offsets() {
         assert!(farthest < 0.02, "drift {drift}: {farthest} of the thickness off the middle");
     }
 }
+
+/// A ring of nodes about the z axis.
+struct Ring {
+    radius: f64,
+    height: f64,
+    nodes: u32,
+}
+
+/// A solid of rings, each meshed to the next and the last to the first; their numbers of nodes may differ.
+fn of_rings(rings: &[Ring]) -> TriMesh {
+    let mut positions = Vec::new();
+    let mut starts = Vec::new();
+    for ring in rings {
+        starts.push(positions.len() as u32);
+        for k in 0..ring.nodes {
+            let a = std::f64::consts::TAU * f64::from(k) / f64::from(ring.nodes);
+            positions.push(DVec3::new(ring.radius * a.cos(), ring.radius * a.sin(), ring.height));
+        }
+    }
+    let mut faces = Vec::new();
+    for (r, ring) in rings.iter().enumerate() {
+        let s = (r + 1) % rings.len();
+        let node = |r: usize, k: u32| starts[r] + k % rings[r].nodes;
+        let (n, m) = (ring.nodes, rings[s].nodes);
+        let (mut i, mut j) = (0, 0);
+        while i < n || j < m {
+            // The one that is behind goes on.
+            if j == m || (i < n && (i + 1) * m <= (j + 1) * n) {
+                faces.push([node(r, i), node(r, i + 1), node(s, j)]);
+                i += 1;
+            } else {
+                faces.push([node(r, i), node(s, j + 1), node(s, j)]);
+                j += 1;
+            }
+        }
+    }
+    TriMesh::new(positions, faces)
+}
+
+#[test]
+fn a_round_rim_is_found_however_it_is_meshed() {
+    const CHORDS: u32 = 16;
+    let (radius, height, half) = (30.0, 40.0, 1.0);
+    for (outer, inner) in [(96, 80), (120, 78), (150, 61)] {
+        let side = |r: f64, nodes: u32| {
+            (0..=20).map(move |k| Ring { radius: r, height: height * f64::from(k) / 20.0, nodes })
+        };
+        let rim = (1..CHORDS).map(|k| {
+            let a = std::f64::consts::PI * f64::from(k) / f64::from(CHORDS);
+            let nodes = if k < 5 { outer } else { inner };
+            Ring { radius: radius + half * a.cos(), height: height + half * a.sin(), nodes }
+        });
+        let inside: Vec<Ring> = side(radius - half, inner).collect();
+        let rings: Vec<Ring> =
+            side(radius + half, outer).chain(rim).chain(inside.into_iter().rev()).collect();
+        let mut solid = of_rings(&rings);
+        // Facets of the round fold unevenly.
+        for (k, p) in solid.positions.iter_mut().enumerate().filter(|(_, p)| p.z > height + 1e-6) {
+            let shift = |n: usize| 0.35 * ((k * n % 17) as f64 / 8.0 - 1.0);
+            let (rho, phi) =
+                (p.truncate().length(), p.y.atan2(p.x) + shift(7) * std::f64::consts::TAU / f64::from(outer));
+            let a = (p.z - height).atan2(rho - radius) + shift(5) * std::f64::consts::PI / f64::from(CHORDS);
+            let rho = radius + half * a.cos();
+            *p = DVec3::new(rho * phi.cos(), rho * phi.sin(), height + half * a.sin());
+        }
+        let thin = deflate(&solid, &DeflateOptions::default(), &Nobody).unwrap();
+        let r = &thin.report;
+        let what = format!("{outer} nodes outside, {inner} inside");
+        assert_eq!((r.self_intersections, r.lost_edges), (0, 0), "{what}");
+        assert_eq!([r.patches, r.joints, r.free_loops, r.components], [1, 0, 2, 1], "{what}");
+        let edges = mesh_kernel::query::Adjacency::new(&thin.sheet);
+        let tops = edges.edges().iter().enumerate().filter(|(e, _)| edges.half_edges(*e as u32).len() == 1);
+        let heights = tops.map(|(_, ends)| thin.sheet.positions[ends[0] as usize].z);
+        let ragged = heights.map(|z| z.abs().min((z - height - half).abs())).fold(0.0, f64::max);
+        eprintln!("{what}: ragged {ragged}");
+        assert!(ragged < 0.1, "{what}: the rim is ragged by {ragged} mm");
+    }
+}

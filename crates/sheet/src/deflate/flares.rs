@@ -17,8 +17,9 @@ const OBLIQUE: f64 = 70.0 / 180.0 * std::f64::consts::PI;
 const FLARE: f64 = 5.0 / 180.0 * std::f64::consts::PI;
 /// A rim turns away from its walls until the cosine to the direction away from them is this.
 const TURNED: f64 = 0.5;
-/// Faces belong to a rim if they are within this share of the thickness of it.
-const RIM: f64 = 0.1;
+/// Faces belong to a rim if they are within this share of the thickness of it: where a round begins is told facet by facet, and
+/// raggedly so if these are fine. Walls go on to the end of the material anyway.
+const RIM: f64 = 0.3;
 /// The inside of a bend is parallel to the outside up to this, in radians, on this share of it.
 const ALONG: f64 = 20.0 / 180.0 * std::f64::consts::PI;
 const MOST: f64 = 0.6;
@@ -30,8 +31,12 @@ impl Walls {
     /// where a wall ends and a fillet begins; what is opposite tells.
     pub(super) fn flares(&self, solid: &Solid, segments: &Segments) -> Vec<Vec<u32>> {
         let fold = |f: u32| {
-            let cosines = (3 * f..3 * f + 3).map(|h| solid.fold_cosine(h)).filter(|c| *c > SHARP.cos());
-            cosines.fold(1.0, f64::min).clamp(-1.0, 1.0).acos()
+            let cosine =
+                |k: u32| Some(solid.fold_cosine(3 * f + k)).filter(|c| *c > SHARP.cos()).unwrap_or(1.0);
+            let mut cosines = [0, 1, 2].map(cosine);
+            cosines.sort_by(f64::total_cmp);
+            // On rounds, which may be meshed unevenly, one edge that folds more says nothing.
+            cosines[usize::from(self.is_proud[f as usize])].clamp(-1.0, 1.0).acos()
         };
         let curved = |f: u32| {
             let g = segments.of(f);

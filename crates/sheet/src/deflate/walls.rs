@@ -71,7 +71,7 @@ pub(super) struct Walls {
     /// Whether each group is a wall.
     pub(super) is_wall: Vec<bool>,
     /// Whether the skin is proud about each face: its smooth edges bend away from each other.
-    is_proud: Vec<bool>,
+    pub(super) is_proud: Vec<bool>,
     /// Share of the skin that has a partner.
     pub(super) paired_share: f64,
 }
