@@ -64,11 +64,11 @@ impl Made {
         self.crossing.len() + self.sheet.lost
     }
 
-    /// How many joints and parts it has.
+    /// How many joints, borders and parts it has.
     fn seams(&self) -> usize {
         let mesh = TriMesh::new(self.sheet.positions.clone(), self.sheet.faces.clone());
         let topology = Topology::of(&mesh);
-        topology.joints + topology.components
+        topology.joints + topology.free_loops + topology.components
     }
 }
 
@@ -107,6 +107,10 @@ impl Trials<'_> {
             if best.faults() == 0 && (best.astray < ASTRAY || is_with) {
                 break;
             }
+            // What has no faults is no truer upright.
+            if best.faults() == 0 && *way == Way::Upright {
+                continue;
+            }
             if watcher.cancelled() {
                 return Err(DeflateError::Cancelled);
             }
@@ -118,7 +122,7 @@ impl Trials<'_> {
             };
             let fewer = trial.faults() < best.faults();
             let truer = trial.faults() == best.faults() && trial.astray < TRUER * best.astray;
-            // Where it does not meet the rest, it is in pieces or has joints beside each other. With features it has more anyway.
+            // Where it does not meet the rest, it is in pieces or has holes, or joints beside each other. With features it has more anyway.
             let meets = (is_with && !with_features) || trial.seams() <= best.seams();
             if (fewer || truer) && meets {
                 best = trial;
