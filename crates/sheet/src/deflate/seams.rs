@@ -87,6 +87,7 @@ impl Seams {
         let mut seams = Self { positions, merged, soft: soft.to_vec(), edges, paths, pieces };
         seams.update();
         let nodes = seams.nodes();
+        let most = MOST_CUTS * nodes.len() + MOST_ANYWAY;
         for (a, b) in near_pairs(&seams.positions, &nodes, near.rounding) {
             seams.merged.join(a, b);
         }
@@ -94,7 +95,7 @@ impl Seams {
         for _ in 0..ROUNDS {
             // Where three borders come together, pairs merge one after the other.
             let merging = (0..ROUNDS).take_while(|_| seams.merge_across(near.chords)).count();
-            if seams.cut(near) == 0 && merging == 0 {
+            if seams.cut(near, most) == 0 && merging == 0 {
                 break;
             }
         }
@@ -303,8 +304,8 @@ impl Seams {
         open
     }
 
-    /// Cuts parts at nodes on them, and where they cross; how many were cut.
-    fn cut(&mut self, near: Nearness) -> usize {
+    /// Cuts parts at nodes on them, and where they cross; how many were cut. A tangle that wants more than `most` cuts is left alone.
+    fn cut(&mut self, near: Nearness, most: usize) -> usize {
         let borders = self.parts();
         let open = self.open_nodes(&borders);
         let edges: Vec<[u32; 2]> = borders.iter().map(|e| e.0).collect();
@@ -333,6 +334,9 @@ impl Seams {
                     crossings.push((e, f, s, t, a.lerp(b, s)));
                 }
             }
+        }
+        if crossings.len() + inner.iter().map(Vec::len).sum::<usize>() > most {
+            return 0;
         }
         for (e, f, s, t, p) in crossings {
             let taken = |list: &[(f64, u32)]| {
@@ -402,6 +406,10 @@ const SHORT_ROUNDS: usize = 2;
 const MOST_PARTS: f64 = 1e5;
 /// Rounds of merging nodes across gaps, at most.
 const ROUNDS: usize = 6;
+/// Borders are cut in so many places for every node of them, or so many in all: those that lie in a tangle, as about the pole of a dome
+/// whose needles a file has rounded, would be cut without end.
+const MOST_CUTS: usize = 10;
+const MOST_ANYWAY: usize = 2000;
 /// Nodes of chords that are one are no farther apart than this share of an edge.
 const MERGED_EDGE: f64 = 0.4;
 /// A chord is no farther than this share of its length from its arc, if one of eight closes a circle.
