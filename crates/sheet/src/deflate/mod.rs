@@ -199,9 +199,10 @@ pub fn deflate(
         exact: &exact,
         twins: &twins,
         options,
+        watcher,
     };
     let Chosen { made: Made { sheet, crossing, .. }, with_features } =
-        trials.best(&features.gone, &kept, &others, meeting, watcher)?;
+        trials.best(&features.gone, &kept, &others, meeting)?;
     if with_features {
         features.undo();
     }

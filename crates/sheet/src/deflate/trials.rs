@@ -41,6 +41,7 @@ pub(super) struct Trials<'a> {
     pub(super) exact: &'a Exact,
     pub(super) twins: &'a Twins,
     pub(super) options: &'a DeflateOptions,
+    pub(super) watcher: &'a dyn Watcher,
 }
 
 /// A sheet as it came out.
@@ -84,7 +85,6 @@ impl Trials<'_> {
         kept: &[bool],
         others: &[bool],
         meeting: Moved,
-        watcher: &dyn Watcher,
     ) -> Result<Chosen, DeflateError> {
         let (assembled, mut best) = self.as_it_comes(gone, kept, &meeting);
         if best.faults() > 0 || best.astray > FOLDED {
@@ -111,7 +111,7 @@ impl Trials<'_> {
             if best.faults() == 0 && *way == Way::Upright {
                 continue;
             }
-            if watcher.cancelled() {
+            if self.watcher.cancelled() {
                 return Err(DeflateError::Cancelled);
             }
             let trial = match way {
@@ -174,7 +174,7 @@ impl Trials<'_> {
             if made.faults() < best.faults() {
                 best = made;
             }
-            if !more {
+            if !more || self.watcher.cancelled() {
                 break;
             }
         }
