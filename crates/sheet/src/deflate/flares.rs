@@ -135,7 +135,7 @@ impl Walls {
         whole > 0.0 && length(&mut sides.iter().copied().filter(|h| ends_here(*h))) > 0.5 * whole
     }
 
-    /// Adds the faces of the group about a rim that are within a trifle of it: the first facets of a round hardly lean.
+    /// Adds the faces of the group about a rim that are near to it: the first facets of a round hardly lean.
     fn widen(&self, solid: &Solid, segments: &Segments, part: &mut Vec<u32>, seen: &mut [bool]) {
         let at = |v: u32| solid.mesh.positions[v as usize];
         let nodes = part.iter().flat_map(|f| solid.mesh.faces[*f as usize]);

@@ -56,6 +56,7 @@ use replace::{Replacement, Way};
 use segments::Segments;
 use sides::kept_groups;
 use solid::Solid;
+use star::Star;
 use straighten::straightened;
 use thickness::thicknesses;
 use topology::Topology;
@@ -184,9 +185,18 @@ pub fn deflate(
         }
     }
     let corners = middles.at_corners(&solid, &segments, &walls);
-    let star = star::Star::new(&solid.mesh.faces, solid.mesh.positions.len());
+    let star = Star::new(&solid.mesh.faces, solid.mesh.positions.len());
     let twins = Twins::new(&solid, &walls, &star);
-    let replacement = Replacement::new(&solid, &segments, &walls, &middles, &blends, &corners, &twins);
+    let replacement = Replacement {
+        solid: &solid,
+        segments: &segments,
+        walls: &walls,
+        middles: &middles,
+        blends: &blends,
+        corners: &corners,
+        twins: &twins,
+        star: &star,
+    };
     let meeting = replacement.moved(Way::Meeting);
     begin(Step::Stitch)?;
     let others = kept_groups(&solid, &segments, &walls, &blends, &middles.of_group, true);

@@ -67,7 +67,7 @@ pub(super) struct Replacement<'a> {
     pub(super) corners: &'a [[Option<Middle>; 3]],
     pub(super) twins: &'a Twins,
     /// Faces at every node, with the corner: `3 face + corner`.
-    star: Star,
+    pub(super) star: &'a Star,
 }
 
 /// The planes that a node has to lie on, and those that it should lie beside.
@@ -83,20 +83,7 @@ struct Wanted {
     thickness: f64,
 }
 
-impl<'a> Replacement<'a> {
-    pub(super) fn new(
-        solid: &'a Solid,
-        segments: &'a Segments,
-        walls: &'a Walls,
-        middles: &'a Middles,
-        blends: &'a Blends,
-        corners: &'a [[Option<Middle>; 3]],
-        twins: &'a Twins,
-    ) -> Self {
-        let star = Star::new(&solid.mesh.faces, solid.mesh.positions.len());
-        Self { solid, segments, walls, middles, blends, corners, twins, star }
-    }
-
+impl Replacement<'_> {
     /// Where all nodes move to; those of facets that would turn over move upright in any case. O(n).
     pub(super) fn moved(&self, way: Way) -> Moved {
         let nodes = self.solid.mesh.positions.len() as u32;

@@ -406,8 +406,8 @@ const SHORT_ROUNDS: usize = 2;
 const MOST_PARTS: f64 = 1e5;
 /// Rounds of merging nodes across gaps, at most.
 const ROUNDS: usize = 6;
-/// Borders are cut in so many places for every node of them, or so many in all: those that lie in a tangle, as about the pole of a dome
-/// whose needles a file has rounded, would be cut without end.
+/// Borders are cut in at most so many places for every node of them, and so many more: those that lie in a tangle, as about the pole of a
+/// dome whose needles a file has rounded, would be cut without end.
 const MOST_CUTS: usize = 10;
 const MOST_ANYWAY: usize = 2000;
 /// Nodes of chords that are one are no farther apart than this share of an edge.
