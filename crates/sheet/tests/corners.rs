@@ -9,6 +9,7 @@ use std::f64::consts::FRAC_PI_4;
 
 use mesh_kernel::TriMesh;
 use mesh_kernel::glam::DVec3;
+use mesh_kernel::query::Adjacency;
 use sheet::deflate::{DeflateOptions, Nobody, deflate};
 use solid_models::turned;
 
@@ -80,6 +81,21 @@ fn rounded_box(outer: f64, inner: f64, chords: u32) -> TriMesh {
     mesh
 }
 
+/// How far the rim of a box lies off the middle of its walls, farther than its rounds are from its corners, in mm.
+fn rim_off(sheet: &TriMesh, rounds: f64) -> f64 {
+    let loops = Adjacency::new(sheet).boundary_loops();
+    let rim = loops.iter().flatten().map(|v| sheet.positions[*v as usize]);
+    let off = rim.filter_map(|p| {
+        let off = (HALF - WALL / 2.0 - p.abs()).abs();
+        match [p.x.abs() < HALF.x - rounds, p.y.abs() < HALF.y - rounds] {
+            [true, false] => Some(off.y),
+            [false, true] => Some(off.x),
+            _ => None,
+        }
+    });
+    off.fold(0.0, f64::max)
+}
+
 #[test]
 fn corners_of_other_centres_are_one_sheet() {
     for (outer, inner, chords) in [
@@ -96,7 +112,7 @@ fn corners_of_other_centres_are_one_sheet() {
     ] {
         let what = format!("rounds {outer}, fillets {inner} in {chords}");
         let solid = rounded_box(outer, inner, chords);
-        for solid in [&solid, &turned(&solid)] {
+        for (lies_turned, solid) in [(false, &solid), (true, &turned(&solid))] {
             let thin = deflate(solid, &DeflateOptions::default(), &Nobody).unwrap();
             let r = &thin.report;
             let topology = [r.patches, r.joints, r.free_loops, r.components];
@@ -104,6 +120,10 @@ fn corners_of_other_centres_are_one_sheet() {
             assert_eq!((r.self_intersections, r.lost_edges), (0, 0), "{what}");
             let sheet: f64 =
                 (0..).zip(&thin.thickness).map(|(f, t)| thin.sheet.area_normal(f).length() / 2.0 * t).sum();
+            if !lies_turned {
+                let off = rim_off(&thin.sheet, outer.max(inner + WALL));
+                assert!(off < 1e-3 * WALL, "{what}: the rim is {off} mm off the middle of its walls");
+            }
             assert!(
                 (sheet / r.solid_volume - 1.0).abs() < 0.01,
                 "{what}: {} of the volume",

@@ -39,6 +39,8 @@ const AGREED: f64 = 2e-3;
 const TWIN_OFF: f64 = 0.01;
 /// A node does not move farther than this many thicknesses for it.
 const REACH: f64 = 0.75;
+/// Nodes slide on planes to those of facets that are inclined to them by a sine of more than this; others meet them too far aside.
+const STEEP: f64 = 0.3;
 /// A wall is smooth at a node if its facets lean by less than this from their mean, in radians.
 const SMOOTH: f64 = 20.0 / 180.0 * std::f64::consts::PI;
 /// Rounds of moving the nodes of facets that turned over upright.
@@ -419,7 +421,7 @@ fn beside_facets(p: DVec3, planes: &[Plane], facets: &[(Plane, f64)], thickness:
         above += w * slope * plane.height(p);
         below += w * slope * slope;
     }
-    let start = if below > 1e-6 * weight { p - direction * (above / below) } else { p };
+    let start = if below > STEEP * STEEP * weight { p - direction * (above / below) } else { p };
     if way == Way::Upright && facets.iter().all(|(plane, _)| plane.normal.dot(direction) > SMOOTH.cos()) {
         return on_planes(start, planes);
     }
