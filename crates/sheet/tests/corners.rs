@@ -10,7 +10,7 @@ use std::f64::consts::FRAC_PI_4;
 use mesh_kernel::TriMesh;
 use mesh_kernel::glam::DVec3;
 use mesh_kernel::query::Adjacency;
-use sheet::deflate::{DeflateOptions, Nobody, deflate};
+use sheet::deflate::{DeflateOptions, Nobody, Shape, deflate};
 use solid_models::turned;
 
 const HALF: DVec3 = DVec3::new(40.0, 30.0, 15.0);
@@ -130,5 +130,30 @@ fn corners_of_other_centres_are_one_sheet() {
                 sheet / r.solid_volume
             );
         }
+    }
+}
+
+#[test]
+fn specks_of_a_fine_tessellation_are_no_plane_faces() {
+    for (outer, inner, chords) in [(3.0, 2.0, 20), (4.0, 0.5, 16)] {
+        let mut solid = rounded_box(outer, inner, chords);
+        // Some facets of the corners are cut in three where they lie.
+        for f in (0..solid.faces.len()).step_by(5) {
+            if solid.area_normal(f as u32).length() < 0.03 {
+                let [a, b, c] = solid.faces[f];
+                let middle = solid.positions.len() as u32;
+                let [p, q, r] = solid.corners(f as u32);
+                solid.positions.push((p + q + r) / 3.0);
+                solid.faces[f] = [a, b, middle];
+                solid.faces.extend([[b, c, middle], [c, a, middle]]);
+            }
+        }
+        let thin = deflate(&solid, &DeflateOptions::default(), &Nobody).unwrap();
+        let r = &thin.report;
+        let what = format!("rounds {outer}, fillets {inner} in {chords}");
+        assert_eq!((r.self_intersections, r.lost_edges), (0, 0), "{what}");
+        assert_eq!([r.patches, r.joints, r.free_loops, r.components], [1, 0, 1, 1], "{what}");
+        let planes = r.faces.iter().filter(|f| matches!(f.shape, Shape::Plane { .. })).count();
+        assert_eq!(planes, 11, "{what}: two sides of a floor and four walls, and the rim");
     }
 }

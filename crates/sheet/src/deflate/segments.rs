@@ -28,6 +28,9 @@ const CHAIN: usize = 6;
 const MOST_BETWEEN: usize = 64;
 /// Below this fold, in radians, edges of a plane face say nothing: the surface may just be finely meshed.
 const SLIGHT_FOLD: f64 = 1.0 / 180.0 * std::f64::consts::PI;
+/// What looks like a plane face within a curved one and is smaller than a square on this share of the solid's size, is a few needles of
+/// its tessellation that lie in one plane by chance.
+const SPECK: f64 = 2e-3;
 
 const NONE: u32 = u32::MAX;
 
@@ -298,7 +301,29 @@ impl Regions {
             .collect();
         self.settle_chains(&mut is_plane, &widths);
         self.settle_bends(&mut is_plane);
+        self.settle_specks(solid, &mut is_plane);
         is_plane
+    }
+
+    /// Specks that run smoothly into curved faces, or into each other, along most of their smooth edges belong to these.
+    fn settle_specks(&self, solid: &Solid, is_plane: &mut [bool]) {
+        let speck = SPECK * SPECK * solid.size * solid.size;
+        let area = |faces: &Vec<u32>| faces.iter().map(|f| solid.areas[*f as usize]).sum::<f64>();
+        let is_speck: Vec<bool> =
+            self.faces.iter().zip(&*is_plane).map(|(faces, plane)| *plane && area(faces) < speck).collect();
+        let runs_on = |region: u32, is_plane: &[bool]| {
+            let (mut curved, mut smooth) = (0.0, 0.0);
+            for b in self.beside(region) {
+                smooth += b.length;
+                if !is_plane[b.other as usize] || is_speck[b.other as usize] {
+                    curved += b.length;
+                }
+            }
+            smooth > 0.0 && curved >= 0.5 * smooth
+        };
+        let curved: Vec<u32> =
+            (0..self.faces.len() as u32).filter(|r| is_speck[*r as usize] && runs_on(*r, is_plane)).collect();
+        curved.into_iter().for_each(|r| is_plane[r as usize] = false);
     }
 
     /// Whether some node has nothing but faces of the region about it: in a curved face, every node bends it.
