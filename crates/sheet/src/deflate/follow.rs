@@ -125,6 +125,7 @@ impl Follow<'_> {
         if !sheet.sources.iter().any(|s| matches!(s, Source::Facet(_))) {
             return;
         }
+        self.remesh.turn_back(sheet);
         match edge_length {
             Some(length) => self.mesh_to(sheet, length),
             None => self.refine(sheet),

@@ -2,6 +2,7 @@
 
 mod assemble;
 mod blends;
+mod closing;
 mod descent;
 mod eigen;
 mod error;

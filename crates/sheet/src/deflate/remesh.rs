@@ -1,4 +1,4 @@
-//! Better triangles for curved pieces: short edges close, diagonals turn, nodes inside move.
+//! Better triangles for curved pieces: diagonals turn, nodes inside move; how edges close is told in [`super::closing`].
 //!
 //! Borders, joints, and whatever a plane piece has a part in stay as they are. Operations run in passes over edges that have
 //! nothing to do with each other, so the result does not depend on threads.
@@ -19,7 +19,7 @@ const LEAN: f64 = 50.0 / 180.0 * std::f64::consts::PI;
 /// Neighbours do not come to fold by more than this, in radians.
 const FOLD: f64 = 24.0 / 180.0 * std::f64::consts::PI;
 /// Faces do not become flatter than this: their height over their longest side.
-const FLATTEST: f64 = 0.1;
+pub(super) const FLATTEST: f64 = 0.1;
 /// Opposite angles that sum up to more than a straight one and this, in radians, have the wrong diagonal.
 const STRAIGHT: f64 = 1e-6;
 /// Passes of turning diagonals.
@@ -54,7 +54,7 @@ pub(super) struct Nodes {
     pub(super) mesh: TriMesh,
     /// Whether each node is inside of a curved piece.
     pub(super) inside: Vec<bool>,
-    star: Star,
+    pub(super) star: Star,
 }
 
 impl Nodes {
@@ -105,67 +105,6 @@ impl Remesh<'_> {
     /// Whether a face would stand too askew to what it came from.
     pub(super) fn leans(&self, sheet: &Sheet, f: u32, corners: [DVec3; 3]) -> bool {
         self.normal(sheet, f).is_some_and(|normal| unit_normal(corners).dot(normal) < LEAN.cos())
-    }
-
-    /// Closes edges inside of curved pieces that are shorter than `least` says for their middles; whether there were any.
-    pub(super) fn close(&self, sheet: &mut Sheet, least: &(dyn Fn(u32) -> f64 + Sync)) -> bool {
-        let nodes = self.nodes(sheet);
-        let at = |v: u32| nodes.mesh.positions[v as usize];
-        let short = |e: u32| -> Option<(f64, u32)> {
-            let [h, k] = nodes.adjacency.half_edges(e) else { return None };
-            let [a, b] = nodes.adjacency.ends(*h);
-            let length = at(a).distance(at(b));
-            let curved = [h, k].iter().all(|h| self.normal(sheet, **h / 3).is_some());
-            let free = nodes.inside[a as usize] || nodes.inside[b as usize];
-            (curved && free && length < least(h / 3)).then_some((length, e))
-        };
-        let mut found: Vec<(f64, u32)> =
-            (0..nodes.adjacency.edges().len() as u32).into_par_iter().filter_map(short).collect();
-        found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let mut touched = vec![false; sheet.faces.len()];
-        let mut dead = vec![false; sheet.faces.len()];
-        for (_, e) in found {
-            let [h, k] = nodes.adjacency.half_edges(e) else { continue };
-            let [a, b] = nodes.adjacency.ends(*h);
-            let (gone, stays) = if nodes.inside[a as usize] { (a, b) } else { (b, a) };
-            let to = if nodes.inside[stays as usize] { at(a).midpoint(at(b)) } else { at(stays) };
-            let stars = [gone, stays].map(|v| nodes.star.of(v));
-            if stars.iter().flat_map(|s| s.iter()).any(|c| touched[*c as usize / 3]) {
-                continue;
-            }
-            let ring = |v: u32| -> BTreeSet<u32> {
-                let faces = nodes.star.of(v).iter().map(|c| nodes.mesh.faces[*c as usize / 3]);
-                faces.flatten().filter(|w| *w != v).collect()
-            };
-            let closing = [h / 3, k / 3];
-            let sound = |v: u32| {
-                nodes.star.of(v).iter().map(|c| c / 3).filter(|f| !closing.contains(f)).all(|f| {
-                    let face = nodes.mesh.faces[f as usize];
-                    let corners = face.map(|w| if w == a || w == b { to } else { at(w) });
-                    let flat = flatness(corners);
-                    !self.leans(sheet, f, corners) && (flat > FLATTEST || flat > flatness(face.map(at)))
-                })
-            };
-            if ring(a).intersection(&ring(b)).count() != 2 || !sound(gone) || !sound(stays) {
-                continue;
-            }
-            for c in stars.into_iter().flatten() {
-                touched[*c as usize / 3] = true;
-            }
-            for c in stars[0] {
-                sheet.faces[*c as usize / 3][*c as usize % 3] = stays;
-            }
-            closing.iter().for_each(|f| dead[*f as usize] = true);
-            sheet.positions[stays as usize] = to;
-        }
-        if !dead.contains(&true) {
-            return false;
-        }
-        let mut keep = dead.iter().map(|d| !d);
-        sheet.faces.retain(|_| keep.next().unwrap_or(true));
-        let mut keep = dead.iter().map(|d| !d);
-        sheet.sources.retain(|_| keep.next().unwrap_or(true));
-        true
     }
 
     /// Turns diagonals until opposite angles are small (Delaunay's criterion), but for those that would fold more.
@@ -274,7 +213,7 @@ fn unit_normal([a, b, c]: [DVec3; 3]) -> DVec3 {
 }
 
 /// The height of a triangle over its longest side.
-fn flatness([a, b, c]: [DVec3; 3]) -> f64 {
+pub(super) fn flatness([a, b, c]: [DVec3; 3]) -> f64 {
     let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
     (b - a).cross(c - a).length() / (longest * longest).max(f64::MIN_POSITIVE)
 }
