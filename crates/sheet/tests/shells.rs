@@ -158,3 +158,38 @@ fn a_round_rim_is_found_however_it_is_meshed() {
         assert!(ragged < 0.1, "{what}: the rim is ragged by {ragged} mm");
     }
 }
+
+#[test]
+fn poles_that_are_meshed_roughly_are_one_sheet() {
+    for (nodes, rough, most) in [(120, 0.002, 0.06), (200, 0.004, 0.06), (400, 0.003, 0.5)] {
+        let (outer, inner) = (60.0, 58.4);
+        // Rings draw together at the pole, where they are thinner than they are true.
+        let steps = [0.05, 0.09, 0.15, 0.24, 0.4, 0.6, 0.9, 1.4, 2.2, 3.5, 6.0, 10.0, 16.0, 24.0, 34.0, 45.0];
+        let side = |r: f64, share: u32| {
+            let pole = Ring { radius: 0.0, height: r, nodes: 1 };
+            let rest = steps.iter().map(move |a| {
+                let a = a * std::f64::consts::PI / 180.0;
+                Ring { radius: r * a.sin(), height: r * a.cos(), nodes: nodes * share / 4 }
+            });
+            std::iter::once(pole).chain(rest)
+        };
+        let inside: Vec<Ring> = side(inner, 3).collect();
+        let rings: Vec<Ring> = side(outer, 4).chain(inside.into_iter().rev()).collect();
+        let mut solid = of_rings(&rings);
+        for (k, p) in solid.positions.iter_mut().enumerate() {
+            if p.truncate().length() < 3.0 {
+                p.z += rough * ((k * 7 % 17) as f64 / 8.0 - 1.0);
+            }
+        }
+        let thin = deflate(&solid, &DeflateOptions::default(), &Nobody).unwrap();
+        let r = &thin.report;
+        let what = format!("{nodes} nodes, {rough} mm rough");
+        assert_eq!((r.self_intersections, r.lost_edges), (0, 0), "{what}");
+        assert_eq!([r.patches, r.joints, r.free_loops, r.components], [1, 0, 1, 1], "{what}");
+        let radius = (outer + inner) / 2.0;
+        // Facets that are finer than they are true face anywhere; what is made of them is at least within the wall.
+        let beside = thin.sheet.positions.iter().filter(|p| p.truncate().length() > 0.25);
+        let farthest = beside.map(|p| (p.length() - radius).abs()).fold(0.0, f64::max);
+        assert!(farthest < most, "{what}: {farthest} mm off the middle");
+    }
+}

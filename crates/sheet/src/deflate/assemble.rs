@@ -97,7 +97,11 @@ pub(super) fn assemble(
     add_planes(&mut sheet, solid, segments, gone, &plan, &seams, &borders, options, MARGIN * thickness);
     let first_curved = sheet.faces.len();
     add_curved(&mut sheet, solid, segments, &plan, &seams);
-    contract(&mut sheet, first_curved, SHORT * thickness);
+    let mut on_border = vec![false; sheet.positions.len()];
+    for v in borders.iter().flat_map(|([a, b], _)| seams.path(*a, *b)) {
+        on_border[v as usize] = true;
+    }
+    contract(&mut sheet, first_curved, &on_border, SHORT * thickness);
     cancel_doubles(&mut sheet);
     sheet.without_unused_nodes()
 }
@@ -199,12 +203,13 @@ fn add_curved(sheet: &mut Sheet, solid: &Solid, segments: &Segments, plan: &Plan
     }
 }
 
-/// Makes one of the ends of very short edges of curved pieces.
-fn contract(sheet: &mut Sheet, first: usize, short: f64) {
+/// Makes one of the ends of very short edges at the borders of curved pieces; those inside close later, and with more care.
+fn contract(sheet: &mut Sheet, first: usize, on_border: &[bool], short: f64) {
     let mut merged = Merged::new(sheet.positions.len());
     for &[a, b, c] in &sheet.faces[first..] {
         for [p, q] in [[a, b], [b, c], [c, a]] {
-            if sheet.positions[p as usize].distance(sheet.positions[q as usize]) < short {
+            let is_at_border = on_border[p as usize] || on_border[q as usize];
+            if is_at_border && sheet.positions[p as usize].distance(sheet.positions[q as usize]) < short {
                 merged.join(p, q);
             }
         }

@@ -9,7 +9,7 @@ use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 use super::plane::Plane;
-use super::solid::Solid;
+use super::solid::{SPECK, Solid};
 
 /// Edges that fold by more than this are sharp: no tessellation of a smooth face is so coarse.
 pub(super) const SHARP: f64 = 40.0 / 180.0 * std::f64::consts::PI;
@@ -28,9 +28,6 @@ const CHAIN: usize = 6;
 const MOST_BETWEEN: usize = 64;
 /// Below this fold, in radians, edges of a plane face say nothing: the surface may just be finely meshed.
 const SLIGHT_FOLD: f64 = 1.0 / 180.0 * std::f64::consts::PI;
-/// What looks like a plane face within a curved one and is smaller than a square on this share of the solid's size, is a few needles of
-/// its tessellation that lie in one plane by chance.
-const SPECK: f64 = 2e-3;
 
 const NONE: u32 = u32::MAX;
 
@@ -305,7 +302,8 @@ impl Regions {
         is_plane
     }
 
-    /// Specks that run smoothly into curved faces, or into each other, along most of their smooth edges belong to these.
+    /// Specks that run smoothly into curved faces, or into each other, along most of their smooth edges belong to these: they are
+    /// needles of a tessellation that lie in one plane by chance.
     fn settle_specks(&self, solid: &Solid, is_plane: &mut [bool]) {
         let speck = SPECK * SPECK * solid.size * solid.size;
         let area = |faces: &Vec<u32>| faces.iter().map(|f| solid.areas[*f as usize]).sum::<f64>();

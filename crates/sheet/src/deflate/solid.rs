@@ -5,10 +5,14 @@ use mesh_kernel::TriMesh;
 use mesh_kernel::query::{Adjacency, Crossings, RayCaster};
 
 use super::DeflateError;
+use super::segments::SHARP;
 use crate::cleaning::weld;
 
 /// A face whose height is less than this share of its longest side has no normal of its own.
 const FLAT: f64 = 1e-9;
+/// Sharply turned away from all about them, faces that are smaller together than a square on this share of the solid's size have
+/// none either: a tessellation is so rough at the poles of round faces, and no wall so thin.
+pub(super) const SPECK: f64 = 2e-3;
 
 /// A closed skin with what is asked of its faces again and again.
 #[derive(Debug)]
@@ -18,7 +22,7 @@ pub(super) struct Solid {
     /// For rays through it.
     pub(super) caster: RayCaster,
     pub(super) adjacency: Adjacency,
-    /// Unit normals; of a face without area, that of the neighbour across its longest side.
+    /// Unit normals; of a face that has none of its own, that of the neighbour across its longest side.
     pub(super) normals: Vec<DVec3>,
     /// Areas in mm².
     pub(super) areas: Vec<f64>,
@@ -62,7 +66,7 @@ impl Solid {
             volume = -volume;
         }
         let caster = crossings.caster(&mesh);
-        let (normals, areas) = normals_and_areas(&mesh, &adjacency);
+        let (normals, areas) = normals_and_areas(&mesh, &adjacency, size);
         Ok(Self { mesh, caster, adjacency, normals, areas, size, volume })
     }
 
@@ -75,7 +79,7 @@ impl Solid {
         }
         let caster = crossings.caster(&mesh);
         let adjacency = Adjacency::new(&mesh);
-        let (normals, areas) = normals_and_areas(&mesh, &adjacency);
+        let (normals, areas) = normals_and_areas(&mesh, &adjacency, self.size);
         let volume = volume(&mesh);
         Some(Self { mesh, caster, adjacency, normals, areas, size: self.size, volume })
     }
@@ -157,42 +161,66 @@ fn volume(mesh: &TriMesh) -> f64 {
     (0..mesh.faces.len() as u32).map(six).sum::<f64>() / 6.0
 }
 
-fn normals_and_areas(mesh: &TriMesh, adjacency: &Adjacency) -> (Vec<DVec3>, Vec<f64>) {
-    let faces = 0..mesh.faces.len() as u32;
-    let sides = |f: u32| {
+fn normals_and_areas(mesh: &TriMesh, adjacency: &Adjacency, size: f64) -> (Vec<DVec3>, Vec<f64>) {
+    let longest = |f: u32| {
         let [a, b, c] = mesh.corners(f);
-        [b - a, c - b, a - c].map(DVec3::length_squared)
+        let sides = [b - a, c - b, a - c].map(DVec3::length_squared);
+        let k = (0..3).max_by(|a, b| sides[*a].total_cmp(&sides[*b])).unwrap_or(0);
+        (3 * f + k as u32, sides[k])
     };
-    let mut flat = Vec::new();
+    let mut without = Vec::new();
     let mut normals = Vec::with_capacity(mesh.faces.len());
     let mut areas = Vec::with_capacity(mesh.faces.len());
-    for f in faces {
+    for f in 0..mesh.faces.len() as u32 {
         let normal = mesh.area_normal(f);
-        let longest = sides(f).into_iter().fold(0.0, f64::max);
-        if normal.length() <= FLAT * longest {
-            flat.push(f);
-            normals.push(DVec3::ZERO);
-        } else {
-            normals.push(normal.normalize());
+        let is_flat = normal.length() <= FLAT * longest(f).1;
+        if is_flat {
+            without.push(f);
         }
+        normals.push(if is_flat { DVec3::ZERO } else { normal.normalize() });
         areas.push(normal.length() / 2.0);
     }
-    // Flat faces may lie in rows; each round reaches one more.
+    let away = turned_away(adjacency, &normals, &areas, SPECK * SPECK * size * size);
+    away.iter().for_each(|f| normals[*f as usize] = DVec3::ZERO);
+    without.extend(away);
+    // They may lie in rows; each round reaches one more.
     for _ in 0..8 {
-        for &f in &flat {
-            if normals[f as usize] == DVec3::ZERO {
-                let lengths = sides(f);
-                let longest = (0..3).max_by(|a, b| lengths[*a].total_cmp(&lengths[*b])).unwrap_or(0);
-                if let Some(partner) = adjacency.partner(3 * f + longest as u32) {
-                    normals[f as usize] = normals[partner as usize / 3];
+        without.retain(|f| {
+            let partner = adjacency.partner(longest(*f).0).map(|h| normals[h as usize / 3]);
+            normals[*f as usize] = partner.unwrap_or_default();
+            normals[*f as usize] == DVec3::ZERO
+        });
+    }
+    without.iter().for_each(|f| normals[*f as usize] = DVec3::Z);
+    (normals, areas)
+}
+
+/// Faces from which smooth ways lead to no more than `most` mm². O(n).
+fn turned_away(adjacency: &Adjacency, normals: &[DVec3], areas: &[f64], most: f64) -> Vec<u32> {
+    let mut seen = vec![false; normals.len()];
+    let mut away = Vec::new();
+    for seed in (0..normals.len() as u32).filter(|f| areas[*f as usize] < most) {
+        if std::mem::replace(&mut seen[seed as usize], true) {
+            continue;
+        }
+        let (mut reached, mut at, mut area, mut leads_on) = (vec![seed], 0, 0.0, false);
+        while at < reached.len() && !leads_on {
+            let f = reached[at];
+            at += 1;
+            area += areas[f as usize];
+            for g in (3 * f..3 * f + 3).filter_map(|h| adjacency.partner(h)).map(|h| h / 3) {
+                let is_smooth = normals[f as usize].dot(normals[g as usize]) > SHARP.cos();
+                // What was seen from another one leads on, or this one had been reached from there.
+                if is_smooth && !reached.contains(&g) {
+                    leads_on |= std::mem::replace(&mut seen[g as usize], true);
+                    reached.push(g);
                 }
             }
+            leads_on |= area > most;
+        }
+        if !leads_on {
+            away.extend(reached);
         }
     }
-    for &f in &flat {
-        if normals[f as usize] == DVec3::ZERO {
-            normals[f as usize] = DVec3::Z;
-        }
-    }
-    (normals, areas)
+    away
 }
