@@ -11,6 +11,8 @@ use super::walls::{Opposite, Walls};
 
 /// A partner counts if it covers this share of a wall.
 const COUNTED: f64 = 0.02;
+/// Or if this share of it lies opposite to the wall: the floor of a small pocket.
+const WHOLE: f64 = 0.5;
 /// A wall has an exact mid-plane if plane partners cover this share of what has a partner.
 const MOSTLY: f64 = 0.8;
 /// Mid-planes that are apart by less than this share of the thickness make no step.
@@ -71,7 +73,10 @@ impl Middles {
         for pair in &walls.pairs {
             let of = |g: u32| plane_of[g as usize].map(|k| planes.plane(k));
             let [Some(p), Some(q)] = [of(pair.group), of(pair.partner)] else { continue };
-            if pair.area < COUNTED * segments.group(pair.group).area {
+            // From a small wall there is a surer look at a large one than the other way round.
+            let back = walls.partners(pair.partner).iter().find(|p| p.partner == pair.group);
+            let is_whole = back.is_some_and(|b| b.area > WHOLE * segments.group(b.group).area);
+            if pair.area < COUNTED * segments.group(pair.group).area && !is_whole {
                 continue;
             }
             let middle = p.middle(&q);

@@ -88,7 +88,8 @@ impl Trials<'_> {
     ) -> Result<Chosen, DeflateError> {
         let (assembled, mut best) = self.as_it_comes(gone, kept, &meeting);
         if best.faults() > 0 || best.astray > FOLDED {
-            let read_off = self.read_off().filter(|made| made.faults() == 0);
+            let is_true = |made: &Made| made.faults() == 0 && made.astray < best.astray.max(ASTRAY);
+            let read_off = self.read_off().filter(is_true);
             best = match read_off {
                 Some(made) => made,
                 None if best.crossing.is_empty() => best,

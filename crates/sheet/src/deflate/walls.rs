@@ -19,6 +19,8 @@ const THICKNESS_GAP: f64 = 2.5;
 /// Where this share of all is thinner, a smaller factor is enough: the rest is lumps and heights of ribs.
 const NEARLY_ALL: f64 = 0.9;
 const SMALL_GAP: f64 = 1.6;
+/// What is broad tells the thickness if it has more than this share of what looks at something.
+const BROAD: f64 = 0.4;
 /// A thickness told from the solid is no more than this share of how far its walls reach.
 const SLENDER: f64 = 0.35;
 /// A wall is a plate whatever the others are if it has this share of the skin, is less thick than this share of its width,
@@ -30,6 +32,8 @@ const PLATE_ALIKE: f64 = 0.2;
 const HAIR: f64 = 0.03;
 /// Walls are wider than this share of it.
 const TRIFLE: f64 = 0.3;
+/// A strip that is narrower than this share of its thickness is no wall.
+const NARROW: f64 = 0.5;
 /// Neighbours are as thick if they are by this share.
 const ALIKE: f64 = 0.1;
 /// Rays begin this far inside, over the solid's size.
@@ -142,7 +146,7 @@ impl Walls {
         };
         let mut looks: Vec<Look> = walls.casts.par_iter().map(look).collect();
         walls.max_thickness = options.max_thickness.unwrap_or_else(|| {
-            let told = told_thickness(&looks, total);
+            let told = told_thickness(&broad(solid, segments, &looks), total);
             thick_plates(solid, segments, &looks, total).fold(told, f64::max)
         });
         for look in &mut looks {
@@ -168,15 +172,17 @@ impl Walls {
         let thick: Vec<Option<f64>> = thick.into_iter().map(|t| t.filter(|t| *t > HAIR * typical)).collect();
         walls.is_wall = thick.iter().map(Option::is_some).collect();
         for (g, group) in (0u32..).zip(&segments.groups) {
+            let Some(own) = thick[g as usize] else { continue };
             // What is not even as wide as it is thick is the end of something, unless it goes on in a wall that is as thick.
-            let width = |t: f64| t.max(TRIFLE * typical);
-            let Some(own) = thick[g as usize].filter(|t| group.area <= width(*t) * width(*t)) else {
-                continue;
-            };
-            let mut beside =
-                group.faces.iter().flat_map(|f| 3 * f..3 * f + 3).map(|h| segments.of(solid.across(h)));
-            let alike = |other: f64| (other - own).abs() < ALIKE * own;
-            walls.is_wall[g as usize] = beside.any(|o| o != g && thick[o as usize].is_some_and(alike));
+            let width = own.max(TRIFLE * typical);
+            if group.area <= width * width {
+                let alike = |other: f64| (other - own).abs() < ALIKE * own;
+                let mut beside = sides(segments, g).map(|h| segments.of(solid.across(h)));
+                walls.is_wall[g as usize] = beside.any(|o| o != g && thick[o as usize].is_some_and(alike));
+            }
+        }
+        for g in sides_of_low_things(solid, segments, &thick) {
+            walls.is_wall[g as usize] = false;
         }
         // Who is no wall is nobody's partner.
         let is_wall = &walls.is_wall;
@@ -236,6 +242,31 @@ impl Walls {
     }
 }
 
+fn sides(segments: &Segments, g: u32) -> impl Iterator<Item = u32> {
+    segments.group(g).faces.iter().flat_map(|f| 3 * f..3 * f + 3)
+}
+
+/// Groups with a thickness that are narrow strips and do not run into anything wider, not even over other strips: the sides of embossed
+/// letters. O(n).
+fn sides_of_low_things(solid: &Solid, segments: &Segments, thick: &[Option<f64>]) -> Vec<u32> {
+    let beside = |h: u32| segments.of(solid.across(h));
+    let is_narrow = |(g, thick): (u32, &Option<f64>)| {
+        let outline: f64 = sides(segments, g).filter(|h| beside(*h) != g).map(|h| solid.length(h)).sum();
+        thick.is_some_and(|thick| 2.0 * segments.group(g).area < NARROW * thick * outline)
+    };
+    let mut is_side: Vec<bool> = (0..).zip(thick).map(is_narrow).collect();
+    let wide = |g: &u32| thick[*g as usize].is_some() && !is_side[*g as usize];
+    let mut stack: Vec<u32> = (0..thick.len() as u32).filter(wide).collect();
+    while let Some(g) = stack.pop() {
+        for other in sides(segments, g).filter(|h| solid.fold_cosine(*h) > SHARP.cos()).map(beside) {
+            if std::mem::replace(&mut is_side[other as usize], false) {
+                stack.push(other);
+            }
+        }
+    }
+    (0..thick.len() as u32).filter(|g| is_side[*g as usize]).collect()
+}
+
 /// Whether smooth edges about each face bend away from each other on the whole. O(n).
 fn is_proud(solid: &Solid) -> Vec<bool> {
     let bend = |h: u32| if solid.fold_cosine(h) > SHARP.cos() { solid.bend(h) } else { 0.0 };
@@ -260,19 +291,39 @@ pub(super) fn spread([a, b, c]: [DVec3; 3], n: u32) -> impl Iterator<Item = DVec
     })
 }
 
-/// The largest thickness, told from the looks: the median one, and what follows on it without a gap.
-fn told_thickness(looks: &[Look], area: f64) -> f64 {
-    let mut seen: Vec<(f64, f64)> = looks.iter().filter_map(|l| Some((l.seen?.1, l.area))).collect();
+/// Thicknesses and areas of looks from what is no end of a wall and no side of something low, the thinnest first. Where hardly anything
+/// else is, as in a block, from everywhere.
+fn broad(solid: &Solid, segments: &Segments, looks: &[Look]) -> Vec<(f64, f64)> {
+    let mut sums = vec![(0.0, 0.0); segments.groups.len()];
+    for look in looks {
+        if let Some((_, thickness)) = look.seen {
+            let sum = &mut sums[look.group as usize];
+            *sum = (sum.0 + look.area * thickness, sum.1 + look.area);
+        }
+    }
+    let thick: Vec<Option<f64>> = sums.iter().map(|(sum, all)| (*all > 0.0).then_some(sum / all)).collect();
+    let mut is_broad = vec![true; thick.len()];
+    sides_of_low_things(solid, segments, &thick).into_iter().for_each(|g| is_broad[g as usize] = false);
+    let seen = |look: &Look| Some((look.seen?.1, look.area));
+    let area = |seen: &[(f64, f64)]| seen.iter().map(|s| s.1).sum::<f64>();
+    let all: Vec<(f64, f64)> = looks.iter().filter_map(seen).collect();
+    let broad: Vec<(f64, f64)> =
+        looks.iter().filter(|l| is_broad[l.group as usize]).filter_map(seen).collect();
+    let mut seen = if area(&broad) > BROAD * area(&all) { broad } else { all };
     seen.par_sort_by(|a, b| a.0.total_cmp(&b.0));
+    seen
+}
+
+/// The largest thickness, told from looks and their areas: the median one, and what follows on it without a gap.
+fn told_thickness(seen: &[(f64, f64)], area: f64) -> f64 {
     let all: f64 = seen.iter().map(|s| s.1).sum();
-    let mut sum = 0.0;
-    let mut largest = 0.0;
+    let (mut sum, mut largest) = (0.0, 0.0);
     for (thickness, part) in seen {
         let gap = if sum >= NEARLY_ALL * all { SMALL_GAP } else { THICKNESS_GAP };
-        if sum >= 0.4 * all && thickness > gap * largest {
+        if sum >= 0.4 * all && *thickness > gap * largest {
             break;
         }
-        largest = thickness;
+        largest = *thickness;
         sum += part;
     }
     // Walls that are seen from both sides cover half of the skin.
