@@ -362,7 +362,7 @@ impl Regions {
     }
 
     /// Facets of a curved face that were divided where they lie, as remeshing does, look plane one by one. Many in a row are no
-    /// folded plate.
+    /// folded plate, nor are those that run into facets that do not look so.
     fn settle_chains(&self, is_plane: &mut [bool], widths: &[f64]) {
         let is_link: Vec<bool> = (0..self.faces.len() as u32)
             .into_par_iter()
@@ -373,10 +373,13 @@ impl Regions {
             if !is_link[first as usize] || seen[first as usize] {
                 continue;
             }
-            let (mut chain, mut at) = (vec![first], 0);
+            let (mut chain, mut at, mut runs_on) = (vec![first], 0, false);
             seen[first as usize] = true;
             while at < chain.len() {
+                let width = widths[chain[at] as usize];
                 for b in self.beside(chain[at]) {
+                    let ratio = widths[b.other as usize] / width;
+                    runs_on |= !is_plane[b.other as usize] && (1.0 / WIDER..WIDER).contains(&ratio);
                     if is_link[b.other as usize] && !seen[b.other as usize] {
                         seen[b.other as usize] = true;
                         chain.push(b.other);
@@ -384,7 +387,7 @@ impl Regions {
                 }
                 at += 1;
             }
-            if chain.len() >= CHAIN {
+            if chain.len() >= CHAIN || runs_on {
                 chain.iter().for_each(|r| is_plane[*r as usize] = false);
             }
         }
