@@ -59,3 +59,30 @@ fn fillets_of_few_chords_are_told_from_plane_faces() {
         assert!((r.area - 60.0 * 60.0 - 60.0 * 21.0).abs() < 0.1, "{what}: {} mm²", r.area);
     }
 }
+
+#[test]
+fn few_chords_between_ribs_are_told_from_folded_plates() {
+    // A round wall with a fin outside: four chords on each side of it there, eight in a row inside.
+    let (inner, outer, top) = (40.0f64, 42.0f64, 54.0);
+    let at = |radius: f64, degrees: f64| {
+        let a = degrees.to_radians();
+        [radius * a.cos(), radius * a.sin()]
+    };
+    let beside = |degrees: f64, radius: f64, aside: f64| {
+        let (a, along) = (degrees.to_radians(), (radius * radius - aside * aside).sqrt());
+        [along * a.cos() - aside * a.sin(), along * a.sin() + aside * a.cos()]
+    };
+    let mut profile: Vec<[f64; 2]> = [0.0, 12.0, 24.0, 36.0].iter().map(|a| at(outer, *a)).collect();
+    profile.extend([beside(48.0, outer, -1.0), beside(48.0, top, -1.0)]);
+    profile.extend([beside(48.0, top, 1.0), beside(48.0, outer, 1.0)]);
+    profile.extend([60.0, 72.0, 84.0, 96.0].iter().map(|a| at(outer, *a)));
+    profile.extend((0..=8).rev().map(|k| at(inner, 12.0 * f64::from(k))));
+    let solid = prism(&profile, 50.0, 4);
+    for (times, solid) in [solid.clone(), divided(&solid), divided(&divided(&solid))].iter().enumerate() {
+        let thin = deflate(solid, &DeflateOptions::default(), &Nobody).unwrap();
+        let r = &thin.report;
+        let what = format!("divided {times} times");
+        assert_eq!((r.self_intersections, r.lost_edges), (0, 0), "{what}");
+        assert_eq!([r.patches, r.joints, r.free_loops, r.components], [3, 1, 2, 1], "{what}");
+    }
+}

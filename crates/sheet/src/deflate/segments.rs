@@ -24,6 +24,9 @@ const REFITS: usize = 5;
 const WIDER: f64 = 3.0;
 /// So many plane pieces that run into each other are facets of a curved face.
 const CHAIN: usize = 6;
+/// Or so many, if they fold by less than this, in radians.
+const SLIGHT_CHAIN: usize = 3;
+const CHORD_FOLD: f64 = 20.0 / 180.0 * std::f64::consts::PI;
 /// So many regions are looked at between two facets.
 const MOST_BETWEEN: usize = 64;
 /// Below this fold, in radians, edges of a plane face say nothing: the surface may just be finely meshed.
@@ -373,13 +376,16 @@ impl Regions {
             if !is_link[first as usize] || seen[first as usize] {
                 continue;
             }
-            let (mut chain, mut at, mut runs_on) = (vec![first], 0, false);
+            let (mut chain, mut at, mut runs_on, mut fold) = (vec![first], 0, false, 0.0f64);
             seen[first as usize] = true;
             while at < chain.len() {
                 let width = widths[chain[at] as usize];
                 for b in self.beside(chain[at]) {
                     let ratio = widths[b.other as usize] / width;
                     runs_on |= !is_plane[b.other as usize] && (1.0 / WIDER..WIDER).contains(&ratio);
+                    if is_link[b.other as usize] {
+                        fold = fold.max(b.fold);
+                    }
                     if is_link[b.other as usize] && !seen[b.other as usize] {
                         seen[b.other as usize] = true;
                         chain.push(b.other);
@@ -387,7 +393,8 @@ impl Regions {
                 }
                 at += 1;
             }
-            if chain.len() >= CHAIN || runs_on {
+            let many = if fold < CHORD_FOLD { SLIGHT_CHAIN } else { CHAIN };
+            if chain.len() >= many || runs_on {
                 chain.iter().for_each(|r| is_plane[*r as usize] = false);
             }
         }
