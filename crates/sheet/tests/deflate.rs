@@ -564,3 +564,31 @@ fn a_watcher_ends_it_at_any_step() {
         assert_eq!(error.unwrap_err(), DeflateError::Cancelled);
     }
 }
+
+#[test]
+fn small_faces_of_a_large_part_are_exact() {
+    // A notch in the border of a large thin plate, and a small tab beside it.
+    let profile = [
+        [0.0, 0.0],
+        [200.0, 0.0],
+        [200.0, 1.2],
+        [201.0, 1.2],
+        [201.0, 0.0],
+        [300.0, 0.0],
+        [300.0, -0.9],
+        [301.1, -0.9],
+        [301.1, 0.0],
+        [800.0, 0.0],
+        [800.0, 600.0],
+        [0.0, 600.0],
+    ];
+    let solid = prism(&profile, 1.0, 1);
+    for solid in [&solid, &turned(&solid)] {
+        let thin = deflated(solid);
+        let r = &thin.report;
+        assert_eq!([r.patches, r.joints, r.free_loops, r.components], [1, 0, 1, 1]);
+        let wanted = 800.0 * 600.0 - 1.2 + 0.9 * 1.1;
+        assert!((r.area - wanted).abs() < 1e-6, "{} mm² instead of {wanted}", r.area);
+        assert_eq!(r.faces.len(), 14, "two sides and twelve ends");
+    }
+}

@@ -10,8 +10,9 @@ use crate::cleaning::weld;
 
 /// A face whose height is less than this share of its longest side has no normal of its own.
 const FLAT: f64 = 1e-9;
-/// Sharply turned away from all about them, faces that are smaller together than a square on this share of the solid's size have
-/// none either: a tessellation is so rough at the poles of round faces, and no wall so thin.
+/// Sharply turned away from all about them, faces that are lower than this share of the solid's size, and smaller together than a
+/// square on the other, have none either: a tessellation is so rough at the poles of round faces, and no wall so thin.
+const LOW: f64 = 1e-4;
 pub(super) const SPECK: f64 = 2e-3;
 
 /// A closed skin with what is asked of its faces again and again.
@@ -180,7 +181,8 @@ fn normals_and_areas(mesh: &TriMesh, adjacency: &Adjacency, size: f64) -> (Vec<D
         normals.push(if is_flat { DVec3::ZERO } else { normal.normalize() });
         areas.push(normal.length() / 2.0);
     }
-    let away = turned_away(adjacency, &normals, &areas, SPECK * SPECK * size * size);
+    let is_low = |f: u32| 2.0 * areas[f as usize] < LOW * size * longest(f).1.sqrt();
+    let away = turned_away(adjacency, &normals, &areas, is_low, SPECK * SPECK * size * size);
     away.iter().for_each(|f| normals[*f as usize] = DVec3::ZERO);
     without.extend(away);
     // They may lie in rows; each round reaches one more.
@@ -195,11 +197,17 @@ fn normals_and_areas(mesh: &TriMesh, adjacency: &Adjacency, size: f64) -> (Vec<D
     (normals, areas)
 }
 
-/// Faces from which smooth ways lead to no more than `most` mm². O(n).
-fn turned_away(adjacency: &Adjacency, normals: &[DVec3], areas: &[f64], most: f64) -> Vec<u32> {
+/// Faces from which smooth ways lead only to low ones, and to no more than `most` mm². O(n).
+fn turned_away(
+    adjacency: &Adjacency,
+    normals: &[DVec3],
+    areas: &[f64],
+    is_low: impl Fn(u32) -> bool,
+    most: f64,
+) -> Vec<u32> {
     let mut seen = vec![false; normals.len()];
     let mut away = Vec::new();
-    for seed in (0..normals.len() as u32).filter(|f| areas[*f as usize] < most) {
+    for seed in (0..normals.len() as u32).filter(|f| is_low(*f)) {
         if std::mem::replace(&mut seen[seed as usize], true) {
             continue;
         }
@@ -216,7 +224,7 @@ fn turned_away(adjacency: &Adjacency, normals: &[DVec3], areas: &[f64], most: f6
                     reached.push(g);
                 }
             }
-            leads_on |= area > most;
+            leads_on |= area > most || !is_low(f);
         }
         if !leads_on {
             away.extend(reached);
