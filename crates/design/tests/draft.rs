@@ -253,7 +253,10 @@ fn a_child_that_works_until_it_is_killed() {
         let ease = Some(EaseSpec { ease: f64::from(k % 300), curve: None, surfaces: Vec::new() });
         history.apply(Command::Edit(Edit::SetEase { level: "hip".into(), ease })).unwrap();
         autosave.changed(&history);
-        std::fs::write(std::path::Path::new(&folder).join("done"), format!("{k}")).unwrap();
+        // Whole in one go: the kill may come at any moment.
+        let [new, done] = ["new", "done"].map(|name| std::path::Path::new(&folder).join(name));
+        std::fs::write(&new, format!("{k}")).unwrap();
+        std::fs::rename(&new, &done).unwrap();
         std::thread::sleep(std::time::Duration::from_millis(50));
     }
 }
