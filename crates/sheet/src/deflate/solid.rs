@@ -193,6 +193,15 @@ fn normals_and_areas(mesh: &TriMesh, adjacency: &Adjacency, size: f64) -> (Vec<D
             normals[*f as usize] == DVec3::ZERO
         });
     }
+    // Two that have their longest side in common look at their other sides.
+    for _ in 0..8 {
+        without.retain(|f| {
+            let partners = (3 * f..3 * f + 3).filter_map(|h| adjacency.partner(h));
+            let found = partners.map(|h| normals[h as usize / 3]).find(|n| *n != DVec3::ZERO);
+            normals[*f as usize] = found.unwrap_or_default();
+            found.is_none()
+        });
+    }
     without.iter().for_each(|f| normals[*f as usize] = DVec3::Z);
     (normals, areas)
 }
