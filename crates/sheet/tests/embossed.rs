@@ -4,6 +4,8 @@
 #[allow(dead_code, reason = "shared by test files")]
 mod solid_models;
 
+use std::collections::BTreeSet;
+
 use mesh_kernel::TriMesh;
 use mesh_kernel::glam::DVec3;
 use sheet::deflate::{DeflateOptions, Nobody, deflate};
@@ -32,10 +34,9 @@ fn is_sign(i: usize, j: usize) -> bool {
     SIGNS[j].as_bytes()[i] == b'x'
 }
 
-/// A plate whose signs are so high, from below.
-fn plate(signs: f64) -> TriMesh {
+/// What lies between two heights over every cell.
+fn between(low: impl Fn(usize, usize) -> f64, high: impl Fn(usize, usize) -> f64) -> TriMesh {
     let (n, m) = (SIGNS[0].len(), SIGNS.len());
-    let height = |i: usize, j: usize| if is_sign(i, j) { signs } else { PLATE };
     let mut mesh = TriMesh::new(Vec::new(), Vec::new());
     let mut quad = |corners: [DVec3; 4]| {
         let first = mesh.positions.len() as u32;
@@ -45,33 +46,60 @@ fn plate(signs: f64) -> TriMesh {
     let at = |i: usize, j: usize, z: f64| DVec3::new(CELL * i as f64, CELL * j as f64, z);
     for i in 0..n {
         for j in 0..m {
-            let z = height(i, j);
-            quad([at(i, j, z), at(i + 1, j, z), at(i + 1, j + 1, z), at(i, j + 1, z)]);
-            quad([at(i, j, 0.0), at(i, j + 1, 0.0), at(i + 1, j + 1, 0.0), at(i + 1, j, 0.0)]);
+            let [bottom, top] = [low(i, j), high(i, j)];
+            quad([at(i, j, top), at(i + 1, j, top), at(i + 1, j + 1, top), at(i, j + 1, top)]);
+            quad([at(i, j, bottom), at(i, j + 1, bottom), at(i + 1, j + 1, bottom), at(i + 1, j, bottom)]);
         }
     }
-    // Upright faces between cells, each from the height of the one to that of the other.
-    let mut upright = |a: [usize; 2], b: [usize; 2], from: f64, to: f64| {
-        if from != to {
-            quad([at(a[0], a[1], from), at(b[0], b[1], from), at(b[0], b[1], to), at(a[0], a[1], to)]);
+    // Upright faces between cells: where one is filled and the other is not.
+    let levels: BTreeSet<u64> = (0..n * m)
+        .flat_map(|k| [low(k % n, k / n), high(k % n, k / n)])
+        .map(|z| (z * SCALE).round() as u64)
+        .collect();
+    let levels: Vec<f64> = levels.into_iter().map(|z| z as f64 / SCALE).collect();
+    let mut upright = |a: [usize; 2], b: [usize; 2], from: Option<[usize; 2]>, to: Option<[usize; 2]>| {
+        for pair in levels.windows(2) {
+            let z = (pair[0] + pair[1]) / 2.0;
+            let fills = |cell: [usize; 2]| (low(cell[0], cell[1])..high(cell[0], cell[1])).contains(&z);
+            let (from, to) = (from.is_some_and(fills), to.is_some_and(fills));
+            let ([a, b], [low, high]) = (if to { [a, b] } else { [b, a] }, [pair[0], pair[1]]);
+            if from != to {
+                quad([at(a[0], a[1], low), at(b[0], b[1], low), at(b[0], b[1], high), at(a[0], a[1], high)]);
+            }
         }
     };
     for i in 0..=n {
         for j in 0..m {
-            let [west, east] =
-                [i.checked_sub(1), (i < n).then_some(i)].map(|c| c.map_or(0.0, |c| height(c, j)));
+            let [west, east] = [i.checked_sub(1), (i < n).then_some(i)].map(|c| Some([c?, j]));
             upright([i, j + 1], [i, j], west, east);
         }
     }
     for j in 0..=m {
         for i in 0..n {
-            let [south, north] =
-                [j.checked_sub(1), (j < m).then_some(j)].map(|c| c.map_or(0.0, |c| height(i, c)));
+            let [south, north] = [j.checked_sub(1), (j < m).then_some(j)].map(|c| Some([i, c?]));
             upright([i, j], [i + 1, j], south, north);
         }
     }
     mesh
 }
+
+/// Levels are told apart to this part of a millimetre.
+const SCALE: f64 = 1e6;
+
+/// A plate whose signs are so high, from below.
+fn plate(signs: f64) -> TriMesh {
+    between(|_, _| 0.0, |i, j| if is_sign(i, j) { signs } else { PLATE })
+}
+
+/// A tray whose signs are so thick, seen from outside.
+fn tray(signs: f64) -> TriMesh {
+    let is_wall = |i, j| i == 0 || j == 0 || i == SIGNS[0].len() - 1 || j == SIGNS.len() - 1;
+    let low = move |i, j| FLOOR + PLATE - if is_sign(i, j) { signs } else { PLATE };
+    between(low, move |i, j| FLOOR + PLATE + if is_wall(i, j) { 20.0 } else { 0.0 })
+}
+
+/// Where the tray stands: levels are not below 0.
+const FLOOR: f64 = 5.0;
 
 #[test]
 fn signs_on_a_plate_are_steps() {
@@ -105,4 +133,97 @@ fn signs_on_a_plate_are_steps() {
         let other = deflate(&turned(&solid), &DeflateOptions::default(), &Nobody).unwrap();
         assert!((other.report.area / r.area - 1.0).abs() < 1e-6, "{what}");
     }
+}
+
+#[test]
+fn signs_on_the_outside_of_a_tray_are_steps() {
+    for signs in [1.2, 1.6, 2.4, 2.8] {
+        let thin = deflate(&tray(signs), &DeflateOptions::default(), &Nobody).unwrap();
+        let r = &thin.report;
+        let what = format!("signs {signs}");
+        assert_eq!((r.self_intersections, r.lost_edges, r.components), (0, 0, 1), "{what}");
+        assert_eq!((r.joints, r.free_loops), (0, 1), "{what}");
+        let mut of_signs = 0.0;
+        for (f, t) in (0u32..).zip(&thin.thickness) {
+            let across = thin.sheet.area_normal(f) / 2.0;
+            if across.z.abs() < 0.5 * across.length() {
+                continue;
+            }
+            let [p, q, r] = thin.sheet.corners(f);
+            let middle = (p + q + r) / 3.0;
+            let [i, j] = [middle.x, middle.y].map(|x| (x / CELL) as usize);
+            let wanted = if is_sign(i, j) { signs } else { PLATE };
+            let height = FLOOR + PLATE - wanted / 2.0;
+            assert!((middle.z - height).abs() < 1e-9, "{what}: {middle} is not in the middle");
+            assert!((t - wanted).abs() < 1e-9, "{what}: {t} mm thick at {middle}");
+            of_signs += if is_sign(i, j) { across.length() } else { 0.0 };
+        }
+        let cells = SIGNS.concat().matches('x').count() as f64 * CELL * CELL;
+        assert!((of_signs - cells).abs() < 1e-6, "{what}: {of_signs} mm² of {cells}");
+    }
+}
+
+/// The side of a round pocket may have nodes between its edges, and facets that run to them from several nodes of an edge.
+#[test]
+fn sides_of_round_pockets_follow_their_edges() {
+    const TURNS: u32 = 96;
+    const OUTER: f64 = 30.0;
+    const POCKET: f64 = 10.0;
+    let floor = 1.2;
+    // Rings of nodes from the middle of the bottom to the middle of the floor; of those between the edges some have half as many.
+    let between = |s: f64| PLATE + (floor - PLATE) * s;
+    let rings = [
+        (OUTER, 0.0, 1),
+        (OUTER, PLATE, 1),
+        (POCKET, PLATE, 1),
+        (POCKET, between(0.25), 2),
+        (POCKET, between(0.5), 1),
+        (POCKET, between(0.75), 2),
+        (POCKET, floor, 1),
+    ];
+    let mut mesh = TriMesh::new(vec![DVec3::ZERO, DVec3::new(0.0, 0.0, floor)], Vec::new());
+    let mut rows: Vec<Vec<u32>> = Vec::new();
+    for (radius, z, every) in rings {
+        let node = |k: u32| {
+            let angle = f64::from(k * every) * std::f64::consts::TAU / f64::from(TURNS);
+            mesh.positions.push(DVec3::new(radius * angle.cos(), radius * angle.sin(), z));
+            mesh.positions.len() as u32 - 1
+        };
+        rows.push((0..TURNS / every).map(node).collect());
+    }
+    let ring = |row: &[u32], k: usize| row[k * row.len() / TURNS as usize % row.len()];
+    for k in 0..TURNS as usize {
+        let mut face = |face: [u32; 3]| {
+            if face[0] != face[1] && face[1] != face[2] && face[2] != face[0] {
+                mesh.faces.push(face);
+            }
+        };
+        face([0, ring(&rows[0], k + 1), ring(&rows[0], k)]);
+        for pair in rows.windows(2) {
+            let [a, b] = [k, k + 1].map(|k| ring(&pair[0], k));
+            let [c, d] = [k, k + 1].map(|k| ring(&pair[1], k));
+            face([a, b, d]);
+            face([a, d, c]);
+        }
+        face([1, ring(&rows[6], k), ring(&rows[6], k + 1)]);
+    }
+    let thin = deflate(&mesh, &DeflateOptions::default(), &Nobody).unwrap();
+    let r = &thin.report;
+    assert_eq!((r.self_intersections, r.components, r.free_loops), (0, 1, 1));
+    let middles = floor / 2.0 - 1e-9..PLATE / 2.0 + 1e-9;
+    assert!(thin.sheet.positions.iter().all(|p| middles.contains(&p.z)), "a node is not between the middles");
+    // Area of a regular polygon about a circle of this radius.
+    let disc = |radius: f64| {
+        f64::from(TURNS) / 2.0 * (std::f64::consts::TAU / f64::from(TURNS)).sin() * radius * radius
+    };
+    let of = |t: f64| {
+        let areas = (0u32..).zip(&thin.thickness).filter(|(_, own)| (*own - t).abs() < 1e-9);
+        areas
+            .map(|(f, _)| thin.sheet.area_normal(f))
+            .filter(|n| n.z.abs() > 0.9 * n.length())
+            .map(|n| n.length() / 2.0)
+            .sum::<f64>()
+    };
+    assert!((of(floor) / disc(POCKET) - 1.0).abs() < 1e-2, "{} mm² of {}", of(floor), disc(POCKET));
+    assert!((of(PLATE) / (disc(OUTER) - disc(POCKET)) - 1.0).abs() < 1e-2, "{} mm²", of(PLATE));
 }

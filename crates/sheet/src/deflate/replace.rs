@@ -45,6 +45,8 @@ const STEEP: f64 = 0.3;
 const SMOOTH: f64 = 20.0 / 180.0 * std::f64::consts::PI;
 /// Rounds of moving the nodes of facets that turned over upright.
 const TURNED_ROUNDS: usize = 4;
+/// Rounds of taking nodes along that no wall holds.
+const ALONG_ROUNDS: usize = 50;
 /// A chain of edges that turns by more than this, in radians, has a corner there.
 const CORNER_TURN: f64 = std::f64::consts::FRAC_PI_4;
 
@@ -103,10 +105,38 @@ impl Replacement<'_> {
             }
             positions = self.positions(&ways);
         }
+        self.take_along(&mut positions);
         Moved {
             positions,
             soft: (0..nodes).into_par_iter().map(|v| !self.wanted(v).facets.is_empty()).collect(),
             blended: (0..nodes).map(|v| !self.blends.behind(v).is_empty()).collect(),
+        }
+    }
+
+    /// Nodes that no wall holds, inside the side of a sign or of a blind hole, go along with those of its border: as far as these do in the
+    /// mean, nearer ones counting more. O(n).
+    fn take_along(&self, positions: &mut [DVec3]) {
+        let solid = self.solid;
+        let is_wall =
+            |v: u32| self.star.of(v).iter().any(|c| self.walls.is_wall[self.segments.of(c / 3) as usize]);
+        let is_loose =
+            |v: &u32| !self.star.of(*v).is_empty() && self.blends.behind(*v).is_empty() && !is_wall(*v);
+        let loose: Vec<u32> = (0..positions.len() as u32).filter(is_loose).collect();
+        let at = |v: u32| solid.mesh.positions[v as usize];
+        for &v in &loose {
+            positions[v as usize] = at(v);
+        }
+        for _ in 0..ALONG_ROUNDS {
+            for &v in &loose {
+                let (mut shift, mut weight) = (DVec3::ZERO, 0.0);
+                for corner in self.star.of(v) {
+                    let [_, w] = solid.adjacency.ends(*corner);
+                    let near = 1.0 / at(v).distance(at(w));
+                    shift += (positions[w as usize] - at(w)) * near;
+                    weight += near;
+                }
+                positions[v as usize] = at(v) + shift / weight;
+            }
         }
     }
 
@@ -207,6 +237,8 @@ impl Replacement<'_> {
             return middle;
         }
         let start = on_planes(p + along, &planes);
+        // Folds between the facets of an end lead to wherever its mesher put nodes; the end itself stands upright on walls.
+        let way = if wanted.facets.is_empty() { Way::Upright } else { way };
         wanted.facets.append(&mut wanted.end_facets);
         if wanted.facets.is_empty() {
             start

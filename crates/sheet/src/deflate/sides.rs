@@ -98,7 +98,7 @@ pub(super) fn kept_groups(
                 walls.partners(g).iter().filter(curved).map(|p| p.area).sum::<f64>();
         }
     }
-    (0..n as u32)
+    let mut kept: Vec<bool> = (0..n as u32)
         .map(|g| {
             let (root, side) = parity.find(g);
             let ([a, b], [few, many]) = (score[root as usize], faces[root as usize]);
@@ -113,7 +113,29 @@ pub(super) fn kept_groups(
             let second = second != (other && (a - b).abs() < HARDLY * walls.max_thickness);
             walls.is_wall[g as usize] && side == second
         })
-        .collect()
+        .collect();
+    keep_sides_with_signs(walls, mids, &mut kept);
+    kept
+}
+
+/// Plates that were kept on the side that does not know where their thickness steps are kept on the other one: what is engraved into the
+/// outside of a box is seen there only. Their edges lie in the same middles. O(n log n).
+fn keep_sides_with_signs(walls: &Walls, mids: &[Vec<Plane>], kept: &mut [bool]) {
+    let is_plate = |g: u32| !mids[g as usize].is_empty();
+    let mut plates = Parity::new(kept.len());
+    for pair in walls.pairs.iter().filter(|p| is_plate(p.group) && is_plate(p.partner)) {
+        plates.relate(pair.group, pair.partner, false);
+    }
+    // Of each plate, whether the kept side and the other one would have to be cut.
+    let mut is_cut = vec![[false; 2]; kept.len()];
+    for g in (0..kept.len() as u32).filter(|g| is_plate(*g)) {
+        is_cut[plates.find(g).0 as usize][usize::from(!kept[g as usize])] |= mids[g as usize].len() > 1;
+    }
+    for g in (0..kept.len() as u32).filter(|g| is_plate(*g) && walls.is_wall[*g as usize]) {
+        if is_cut[plates.find(g).0 as usize] == [true, false] {
+            kept[g as usize] ^= true;
+        }
+    }
 }
 
 /// Creases of two sides differ if their lengths do by this many thicknesses.
