@@ -81,6 +81,59 @@ fn rounded_box(outer: f64, inner: f64, chords: u32) -> TriMesh {
     mesh
 }
 
+/// An open box that is sharp outside, with fillets in its upright edges inside and others around its floor.
+fn cast_box(upright: f64, about_floor: f64, chords: u32) -> TriMesh {
+    let signs = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
+    let corner = |k: usize, z: f64| DVec3::new(HALF.x * signs[k][0], HALF.y * signs[k][1], z);
+    let mut mesh = TriMesh::new(Vec::new(), Vec::new());
+    for z in [-HALF.z, HALF.z] {
+        mesh.positions.extend((0..4).map(|k| corner(k, z)));
+    }
+    mesh.faces.extend([[0, 2, 1], [0, 3, 2]]);
+    for k in 0..4 {
+        let next = (k + 1) % 4;
+        mesh.faces.extend([[k, next, next + 4], [k, next + 4, k + 4]]);
+    }
+    // Rings of nodes from the rim down to the floor, a quarter of a circle in every corner.
+    let floor = WALL - HALF.z;
+    let quarter = |k: u32| std::f64::consts::FRAC_PI_2 * f64::from(k) / f64::from(chords);
+    let down = (0..=chords)
+        .map(quarter)
+        .map(|a| (about_floor * (1.0 - a.cos()), floor + about_floor * (1.0 - a.sin())));
+    let levels: Vec<(f64, f64)> = std::iter::once((0.0, HALF.z)).chain(down).collect();
+    let per_ring = 4 * (chords + 1);
+    for (inset, z) in &levels {
+        for side in 0..4 {
+            let straight = HALF - WALL - upright;
+            let centre =
+                DVec3::new(straight.x * signs[side as usize][0], straight.y * signs[side as usize][1], *z);
+            mesh.positions.extend((0..=chords).map(|k| {
+                let angle = quarter(side * chords + k);
+                centre + (upright - inset) * DVec3::new(angle.cos(), angle.sin(), 0.0)
+            }));
+        }
+    }
+    let node = |ring: u32, k: u32| 8 + ring * per_ring + k % per_ring;
+    for k in 0..per_ring {
+        let side = k / (chords + 1);
+        let (a, b) = (node(0, k), node(0, k + 1));
+        mesh.faces.push([4 + side, b, a]);
+        if k % (chords + 1) == chords {
+            mesh.faces.push([4 + side, 4 + (side + 1) % 4, b]);
+        }
+        for ring in 1..levels.len() as u32 {
+            let (c, d) = (node(ring, k), node(ring, k + 1));
+            let (a, b) = (node(ring - 1, k), node(ring - 1, k + 1));
+            mesh.faces.extend([[a, b, d], [a, d, c]]);
+        }
+        let last = levels.len() as u32 - 1;
+        if k > 0 && k + 1 < per_ring {
+            mesh.faces.push([node(last, 0), node(last, k), node(last, k + 1)]);
+        }
+    }
+    mesh
+}
+
 /// How far the rim of a box lies off the middle of its walls, farther than its rounds are from its corners, in mm.
 fn rim_off(sheet: &TriMesh, rounds: f64) -> f64 {
     let loops = Adjacency::new(sheet).boundary_loops();
@@ -155,5 +208,24 @@ fn specks_of_a_fine_tessellation_are_no_plane_faces() {
         assert_eq!([r.patches, r.joints, r.free_loops, r.components], [1, 0, 1, 1], "{what}");
         let planes = r.faces.iter().filter(|f| matches!(f.shape, Shape::Plane { .. })).count();
         assert_eq!(planes, 11, "{what}: two sides of a floor and four walls, and the rim");
+    }
+}
+
+#[test]
+fn fillets_of_two_radii_leave_no_hole_where_they_meet() {
+    for (upright, about_floor, chords) in
+        [(6.0, 3.0, 3), (6.0, 3.0, 4), (9.0, 2.0, 12), (5.0, 4.5, 5), (4.0, 1.0, 7)]
+    {
+        let what = format!("upright {upright}, about the floor {about_floor}, in {chords}");
+        let solid = cast_box(upright, about_floor, chords);
+        for solid in [&solid, &turned(&solid)] {
+            let thin = deflate(solid, &DeflateOptions::default(), &Nobody).unwrap();
+            let r = &thin.report;
+            assert_eq!([r.patches, r.joints, r.free_loops, r.components], [5, 0, 1, 1], "{what}");
+            assert_eq!((r.self_intersections, r.lost_edges), (0, 0), "{what}");
+            let [a, b, h] = (2.0 * HALF - WALL * DVec3::new(1.0, 1.0, 0.5)).to_array();
+            let wanted = a * b + 2.0 * (a + b) * h;
+            assert!((r.area / wanted - 1.0).abs() < 1e-6, "{what}: {} mm² of {wanted}", r.area);
+        }
     }
 }

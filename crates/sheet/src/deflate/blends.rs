@@ -30,9 +30,11 @@ const AS_NEAR_WALL: f64 = 1.02;
 /// A blend that reaches from a wall to its partner over less than this many thicknesses is the wall's end.
 const END_WIDTH: f64 = 2.5;
 /// Walls that are blended are no farther apart than this many of the largest thickness.
-const REACH: f64 = 6.0;
+const REACH: f64 = 10.0;
 /// Cosine of the angle above which a direction goes along a border.
 const ALONG: f64 = 0.6;
+/// Cosine of the angle at a corner of a border, at most.
+const CORNER: f64 = 0.7;
 /// Strips narrower than this share of it blend nothing: they are left where a mesh was cut.
 const BURR: f64 = 0.1;
 /// A chamfer folds from its walls by less than this, in radians.
@@ -60,6 +62,9 @@ type Reached = Reverse<(u64, u32, u32)>;
 
 /// By node, how far the nearest of some others is, and which one that is.
 type Nearest = BTreeMap<u32, (f64, u32)>;
+
+/// What nodes belong to.
+type Behind = BTreeMap<u32, Vec<Belongs>>;
 
 /// Edges of a border by both ends.
 type Border = BTreeMap<u32, Vec<u32>>;
@@ -97,7 +102,7 @@ impl Blends {
             sets.push(together);
         }
         let look = |together: &Vec<u32>| blends.look_behind(solid, segments, walls, &star, together);
-        let found: Vec<Vec<(u32, Vec<Belongs>)>> = sets.par_iter().map(look).collect();
+        let found: Vec<Behind> = sets.par_iter().map(look).collect();
         for (node, behind) in found.into_iter().flatten() {
             blends.of_node.entry(node).or_default().extend(behind);
         }
@@ -117,7 +122,7 @@ impl Blends {
         walls: &Walls,
         star: &Star,
         together: &[u32],
-    ) -> Vec<(u32, Vec<Belongs>)> {
+    ) -> Behind {
         // Edges of the blend's border, by the group beyond.
         let mut borders: BTreeMap<u32, Border> = BTreeMap::new();
         let mut links: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
@@ -159,7 +164,8 @@ impl Blends {
                 found.entry(node).or_default().push((p.distance(point), Belongs { group, at }, point));
             }
         }
-        let mut of_node = Vec::new();
+        let mut of_node: Behind = BTreeMap::new();
+        let mut near_walls_of: BTreeMap<u32, Vec<(f64, Belongs)>> = BTreeMap::new();
         for (node, mut reached) in found {
             reached.sort_by(|a, b| a.0.total_cmp(&b.0));
             let here = reached.iter().filter(|r| r.0 == 0.0).map(|r| r.1);
@@ -218,11 +224,29 @@ impl Blends {
                 walls.is_wall[r.1.group as usize] && wall.is_some_and(|w| r.0 <= AS_NEAR_WALL * w.0)
             };
             let near_walls = others.iter().filter(near).filter(is_near_wall);
-            let behind: Vec<Belongs> = near_walls.chain(ends).map(|r| r.1).collect();
+            // Fillets of different radii that come together at a corner of a wall have each their own wall behind them.
+            let ways = own.iter().flat_map(|o| {
+                let border = borders.get(&o.group);
+                let ends = border.and_then(|border| border.get(&node)).map_or(&[][..], Vec::as_slice);
+                ways_off(p, ends.iter().map(|end| position(*end)))
+            });
+            let on_the_way = |way: DVec3| {
+                let goes = |r: &&&Reach| (r.2 - p).normalize_or_zero().dot(way) > ALONG;
+                others.iter().filter(near).filter(goes).find(|r| walls.is_wall[r.1.group as usize])
+            };
+            let at_corner: Vec<&&Reach> = ways.filter_map(on_the_way).collect();
+            let mut behind: Vec<Belongs> = near_walls.chain(at_corner).chain(ends).map(|r| r.1).collect();
+            behind.dedup();
             let behind = if behind.is_empty() { self.at_an_end(walls, &own, &reached) } else { behind };
             if !behind.is_empty() {
-                of_node.push((node, behind));
+                of_node.insert(node, behind);
             }
+            let is_wall = |r: &&&Reach| walls.is_wall[r.1.group as usize];
+            near_walls_of
+                .insert(node, others.iter().filter(near).filter(is_wall).map(|r| (r.0, r.1)).collect());
+        }
+        for border in borders.iter().filter(|b| segments.group(*b.0).plane.is_some()).map(|b| b.1) {
+            into_corners(border, &near_walls_of, &mut of_node);
         }
         of_node
     }
@@ -285,6 +309,43 @@ fn is_chamfer(solid: &Solid, segments: &Segments, walls: &Walls, g: u32) -> bool
     let narrow = 2.0 * group.area < walls.max_thickness * outline;
     let from_wall_to_end = to_walls > ONE_SIDE * outline && to_ends > ONE_SIDE * outline && !is_end;
     narrow && (to_walls > 0.5 * outline || from_wall_to_end)
+}
+
+/// Where a border in a round corner passes from one wall behind the blend to another without a node that is as near to both, the one that
+/// is nearest to being so belongs to both.
+fn into_corners(border: &Border, near_walls: &BTreeMap<u32, Vec<(f64, Belongs)>>, of_node: &mut Behind) {
+    let edges = border.iter().flat_map(|(a, ends)| ends.iter().map(move |b| (*a, *b)));
+    for (a, b) in edges.filter(|(a, b)| a < b) {
+        let lists = [a, b].map(|v| near_walls.get(&v).map_or(&[][..], Vec::as_slice));
+        let [Some((_, p)), Some((_, q))] = lists.map(<[_]>::first) else { continue };
+        let has = |v: u32, group: u32| {
+            of_node.get(&v).is_some_and(|behind| behind.iter().any(|b| b.group == group))
+        };
+        let is_passed = p.group != q.group && has(a, p.group) && has(b, q.group);
+        if !is_passed || has(a, q.group) || has(b, p.group) {
+            continue;
+        }
+        let other =
+            [(a, lists[0], q.group), (b, lists[1], p.group)].into_iter().filter_map(|(v, list, group)| {
+                let (far, other) = list.iter().find(|r| r.1.group == group)?;
+                Some((far / list[0].0, v, *other))
+            });
+        if let Some((_, v, other)) = other.min_by(|a, b| a.0.total_cmp(&b.0)) {
+            of_node.entry(v).or_default().push(other);
+        }
+    }
+}
+
+/// Which ways lead off a corner of a group's border across either of its two sides: beside the one is along the other. None where it is no
+/// corner.
+fn ways_off(p: DVec3, ends: impl Iterator<Item = DVec3>) -> Vec<DVec3> {
+    let along: Vec<DVec3> = ends.map(|end| (end - p).normalize_or_zero()).collect();
+    match along[..] {
+        [a, b] if a.dot(b).abs() < CORNER => {
+            vec![-(a - b * a.dot(b)).normalize_or_zero(), -(b - a * a.dot(b)).normalize_or_zero()]
+        }
+        _ => Vec::new(),
+    }
 }
 
 /// The mean normal of the faces of a group about a node of it.
