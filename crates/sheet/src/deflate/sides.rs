@@ -4,6 +4,8 @@
 //! face on that side is cut along the rib and the other is not; where a plate is folded, the inner faces grow when
 //! they move to the middle and the outer ones shrink, past their own nodes if they are finely meshed.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use super::blends::Blends;
 use super::plane::Plane;
 use super::segments::{SHARP, Segments};
@@ -78,6 +80,7 @@ pub(super) fn kept_groups(
             parity.relate(pair.group, pair.partner, true);
         }
     }
+    let stood_on = creases.stood_on(walls, &mut parity);
     // What speaks for each side of each set.
     let mut score = vec![[0.0f64; 2]; n];
     let mut faces = vec![[0usize; 2]; n];
@@ -90,7 +93,9 @@ pub(super) fn kept_groups(
         let wide = group.area.sqrt();
         // A wall with two middles would have to be cut in two.
         let split = (mid_planes.max(1) - 1) as f64 * 4.0 * wide;
-        score[root as usize][usize::from(side)] += creases.concave[g as usize] - split;
+        // A curved wall has edges where others stand on it on their side only; plane ones are cut by what lies in them.
+        let stood_on = STOOD_ON * stood_on[g as usize];
+        score[root as usize][usize::from(side)] += creases.concave[g as usize] + stood_on - split;
         faces[root as usize][usize::from(side)] += group.faces.len();
         if group.plane.is_some() {
             let curved = |p: &&Pair| segments.group(p.partner).plane.is_none();
@@ -140,6 +145,8 @@ fn keep_sides_with_signs(walls: &Walls, mids: &[Vec<Plane>], kept: &mut [bool]) 
 
 /// Creases of two sides differ if their lengths do by this many thicknesses.
 const DIFFERENT: f64 = 0.1;
+/// Edges to a wall that stands on a curved one weigh so much more than others.
+const STOOD_ON: f64 = 10.0;
 /// Or hardly, if by less than so many.
 const HARDLY: f64 = 10.0;
 /// One side has more plane walls opposite to curved ones than the other, if by this share of them.
@@ -153,26 +160,37 @@ struct Creases {
     smooth: Vec<[u32; 2]>,
     /// Length of the sharp edges to other walls, and of the edges to blends: hollow ones count, proud ones count against.
     concave: Vec<f64>,
+    /// Length of those edges of curved walls, by the group beyond.
+    folds: BTreeMap<[u32; 2], f64>,
+    /// Walls beside each group, but for smooth neighbours.
+    beside: Vec<BTreeSet<u32>>,
 }
 
 impl Creases {
     fn new(solid: &Solid, segments: &Segments, walls: &Walls, blends: &Blends) -> Self {
-        let mut creases = Self { smooth: Vec::new(), concave: vec![0.0; segments.groups.len()] };
+        let n = segments.groups.len();
+        let mut creases = Self {
+            smooth: Vec::new(),
+            concave: vec![0.0; n],
+            folds: BTreeMap::new(),
+            beside: vec![BTreeSet::new(); n],
+        };
+        let is_wall = |g: u32| walls.is_wall[g as usize];
         for h in 0..3 * solid.len() {
             let [g, other] = [h / 3, solid.across(h)].map(|f| segments.of(f));
-            let is_wall = |g: u32| walls.is_wall[g as usize];
             if g == other || !is_wall(g) || !(is_wall(other) || blends.is_blend[other as usize]) {
                 continue;
             }
-            if !is_wall(other) {
-                creases.count(solid, g, h);
+            let both_planes = [g, other].iter().all(|g| segments.group(*g).plane.is_some());
+            if is_wall(other) && solid.fold_cosine(h) > SHARP.cos() && !both_planes {
+                creases.smooth.push([g.min(other), g.max(other)]);
                 continue;
             }
-            let both_planes = [g, other].iter().all(|g| segments.group(*g).plane.is_some());
-            if solid.fold_cosine(h) > SHARP.cos() && !both_planes {
-                creases.smooth.push([g.min(other), g.max(other)]);
-            } else {
-                creases.count(solid, g, h);
+            let length = solid.length(h);
+            creases.concave[g as usize] += if solid.is_convex(h) { -length } else { length };
+            creases.beside[other as usize].insert(g);
+            if segments.group(g).plane.is_none() {
+                *creases.folds.entry([g, other]).or_insert(0.0) += length;
             }
         }
         creases.smooth.sort_unstable();
@@ -180,8 +198,26 @@ impl Creases {
         creases
     }
 
-    fn count(&mut self, solid: &Solid, g: u32, h: u32) {
-        let length = solid.length(h);
-        self.concave[g as usize] += if solid.is_convex(h) { -length } else { length };
+    /// Of each curved wall, the length of its folds to walls that stand with both their sides on its side of its set, straight or over a
+    /// blend.
+    fn stood_on(&self, walls: &Walls, parity: &mut Parity) -> Vec<f64> {
+        let beyond = |other: u32| match walls.is_wall[other as usize] {
+            true => BTreeSet::from([other]),
+            false => self.beside[other as usize].clone(),
+        };
+        let mut about: BTreeMap<(u32, bool), BTreeSet<u32>> = BTreeMap::new();
+        for &[g, other] in self.folds.keys() {
+            about.entry(parity.find(g)).or_default().extend(beyond(other).into_iter().filter(|o| *o != g));
+        }
+        let mut stood_on = vec![0.0; self.concave.len()];
+        for (&[g, other], length) in &self.folds {
+            let about = &about[&parity.find(g)];
+            let both_stand =
+                |w: &u32| walls.partners(*w).iter().any(|p| p.partner != *w && about.contains(&p.partner));
+            if beyond(other).iter().any(|w| *w != g && both_stand(w)) {
+                stood_on[g as usize] += length;
+            }
+        }
+        stood_on
     }
 }
