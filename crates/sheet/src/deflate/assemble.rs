@@ -13,6 +13,7 @@ use super::plan::{Plan, border, plan};
 use super::plane::Plane;
 use super::seams::{Merged, Seams};
 use super::segments::Segments;
+use super::slivers::{cancel_doubles, contract};
 use super::solid::Solid;
 use super::walls::Walls;
 
@@ -201,59 +202,6 @@ fn add_curved(sheet: &mut Sheet, solid: &Solid, segments: &Segments, plan: &Plan
             }
         }
     }
-}
-
-/// Makes one of the ends of very short edges at the borders of curved pieces; those inside close later, and with more care.
-fn contract(sheet: &mut Sheet, first: usize, on_border: &[bool], short: f64) {
-    let mut merged = Merged::new(sheet.positions.len());
-    for &[a, b, c] in &sheet.faces[first..] {
-        for [p, q] in [[a, b], [b, c], [c, a]] {
-            let is_at_border = on_border[p as usize] || on_border[q as usize];
-            if is_at_border && sheet.positions[p as usize].distance(sheet.positions[q as usize]) < short {
-                merged.join(p, q);
-            }
-        }
-    }
-    let mut stays = Vec::with_capacity(sheet.faces.len());
-    for face in &mut sheet.faces {
-        *face = face.map(|v| merged.find(v));
-        let [a, b, c] = *face;
-        stays.push(a != b && b != c && c != a);
-    }
-    let mut keep = stays.iter();
-    sheet.faces.retain(|_| keep.next().copied().unwrap_or(true));
-    let mut keep = stays.iter();
-    sheet.sources.retain(|_| keep.next().copied().unwrap_or(true));
-}
-
-/// Two faces on the same nodes, left where slivers closed or a strip had no width, cancel each other if they face opposite ways; else one stays.
-fn cancel_doubles(sheet: &mut Sheet) {
-    let sorted = |face: &[u32; 3]| {
-        let mut nodes = *face;
-        nodes.sort_unstable();
-        nodes
-    };
-    let mut order: Vec<usize> = (0..sheet.faces.len()).collect();
-    order.sort_by_key(|f| (sorted(&sheet.faces[*f]), *f));
-    let mut gone = vec![false; sheet.faces.len()];
-    for run in order.chunk_by(|f, g| sorted(&sheet.faces[*f]) == sorted(&sheet.faces[*g])) {
-        let is_even = |f: &usize| {
-            let [a, b, c] = sheet.faces[*f];
-            [[a, b, c], [b, c, a], [c, a, b]].contains(&sorted(&sheet.faces[*f]))
-        };
-        let even: Vec<usize> = run.iter().copied().filter(is_even).collect();
-        let odd: Vec<usize> = run.iter().copied().filter(|f| !is_even(f)).collect();
-        let pairs = even.len().min(odd.len());
-        let left = usize::from(even.len() != odd.len());
-        for list in [even, odd] {
-            let keep = if list.len() > pairs { left } else { 0 };
-            list.iter().skip(keep).for_each(|f| gone[*f] = true);
-        }
-    }
-    let mut stays = gone.iter().map(|g| !g);
-    sheet.faces.retain(|_| stays.next().unwrap_or(true));
-    let mut stays = gone.iter().map(|g| !g);
-    sheet.sources.retain(|_| stays.next().unwrap_or(true));
 }
 
 /// A face whose sides have nodes on them, as triangles; nothing where two corners are one.

@@ -27,6 +27,7 @@ mod seams;
 mod segments;
 mod shape;
 mod sides;
+mod slivers;
 mod solid;
 mod star;
 mod straighten;
