@@ -227,3 +227,48 @@ fn sides_of_round_pockets_follow_their_edges() {
     assert!((of(floor) / disc(POCKET) - 1.0).abs() < 1e-2, "{} mm² of {}", of(floor), disc(POCKET));
     assert!((of(PLATE) / (disc(OUTER) - disc(POCKET)) - 1.0).abs() < 1e-2, "{} mm²", of(PLATE));
 }
+
+/// Engraved and embossed on both sides, over each other and beside each other.
+#[test]
+fn signs_on_both_sides_are_steps() {
+    let is_mirrored = |i: usize, j: usize| is_sign(SIGNS[0].len() - 1 - i, (j + 1).min(SIGNS.len() - 1));
+    let is_wall = |i, j| i == 0 || j == 0 || i == SIGNS[0].len() - 1 || j == SIGNS.len() - 1;
+    for (below, above) in [(0.5, 0.4), (0.5, -0.5), (-0.3, 0.6), (-0.4, -0.6)] {
+        for walls in [0.0, 20.0] {
+            let what = format!("{below} below, {above} above, walls {walls}");
+            let low = |i, j| FLOOR + if is_mirrored(i, j) { below } else { 0.0 };
+            let high = |i, j| FLOOR + PLATE - if is_sign(i, j) { above } else { 0.0 };
+            let solid = between(low, |i, j| high(i, j) + if is_wall(i, j) { walls } else { 0.0 });
+            let thin = deflate(&solid, &DeflateOptions::default(), &Nobody).unwrap();
+            let r = &thin.report;
+            assert_eq!((r.self_intersections, r.lost_edges, r.components), (0, 0, 1), "{what}");
+            // Cells that touch at a corner only and step the same way have an upright edge in common, of four steps.
+            let joints = if (below > 0.0) == (above > 0.0) { 0 } else { r.joints };
+            assert_eq!((r.joints, r.free_loops), (joints, 1), "{what}");
+            let mut covered = 0.0;
+            for (f, t) in (0u32..).zip(&thin.thickness) {
+                let across = thin.sheet.area_normal(f) / 2.0;
+                if across.z.abs() < 0.5 * across.length() {
+                    continue;
+                }
+                let [p, q, r] = thin.sheet.corners(f);
+                let middle = (p + q + r) / 3.0;
+                let [i, j] = [middle.x, middle.y].map(|x| (x / CELL) as usize);
+                let (low, high) = (low(i, j), high(i, j));
+                assert!(
+                    (middle.z - (low + high) / 2.0).abs() < 1e-9,
+                    "{what}: {middle} is not in the middle"
+                );
+                assert!((t - (high - low)).abs() < 1e-9, "{what}: {t} mm thick at {middle}");
+                covered += across.length();
+            }
+            let short = if walls > 0.0 { CELL } else { 0.0 };
+            let [width, depth] = [SIGNS[0].len(), SIGNS.len()].map(|n| n as f64 * CELL - short);
+            assert!((covered - width * depth).abs() < 1e-6, "{what}: {covered} mm² of {}", width * depth);
+            let other = deflate(&turned(&solid), &DeflateOptions::default(), &Nobody).unwrap();
+            let o = &other.report;
+            assert_eq!((o.self_intersections, o.joints, o.free_loops), (0, r.joints, 1), "{what}, turned");
+            assert!((o.area / r.area - 1.0).abs() < 1e-6, "{what}: {} mm² turned, {}", o.area, r.area);
+        }
+    }
+}

@@ -57,7 +57,7 @@ pub struct DeflateFileReport {
 }
 
 /// Corners and fillets are counted twice or not at all; a volume that is off by more than this share tells of a fault.
-const VOLUME_OFF: f64 = 0.12;
+const VOLUME_OFF: f64 = 0.08;
 /// Faces without a partner named in warnings; JSON has all.
 const NAMED: usize = 5;
 

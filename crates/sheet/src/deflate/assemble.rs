@@ -5,7 +5,6 @@ use std::collections::BTreeSet;
 
 use glam::DVec3;
 
-use super::DeflateOptions;
 use super::fill::{Outline, fill};
 use super::middle::Middles;
 use super::nearness::Nearness;
@@ -15,7 +14,9 @@ use super::seams::{Merged, Seams};
 use super::segments::Segments;
 use super::slivers::{cancel_doubles, contract};
 use super::solid::Solid;
+use super::terraces::Terraces;
 use super::walls::Walls;
+use super::{DeflateOptions, Steps};
 
 /// Edges of curved pieces shorter than this share of the wall's thickness close when they got that short by moving.
 const CLOSED: f64 = 0.02;
@@ -53,6 +54,7 @@ pub(super) struct Sheet {
 }
 
 /// Where the solid's nodes go.
+#[derive(Clone)]
 pub(super) struct Moved {
     pub(super) positions: Vec<DVec3>,
     /// Whether a node lies beside facets and not just on planes: then it is only as exact as chords are.
@@ -73,16 +75,19 @@ pub(super) fn assemble(
     moved: &Moved,
     options: &DeflateOptions,
 ) -> Sheet {
-    let plan = plan(solid, segments, walls, middles, gone, kept, moved, options);
-    let Moved { positions: moved, soft, .. } = moved;
+    let (mut kept, mut moved) = (kept.to_vec(), moved.clone());
+    let terraces = Terraces { solid, segments, walls, middles, gone };
+    let terraces =
+        if options.steps == Steps::Apart { vec![] } else { terraces.pieces(&mut kept, &mut moved) };
+    let mut plan = plan(solid, segments, walls, middles, gone, &kept, &moved, options);
+    plan.planes.extend(terraces);
+    let Moved { positions: moved, soft, .. } = &moved;
     let thickness = mean_thickness(walls);
     let near = Nearness { rounding: ROUNDING * solid.size, chords: CHORDS * thickness };
     let merged = closed_edges(solid, segments, &plan, moved, CLOSED * thickness);
     let mut borders: Vec<([u32; 2], u32)> = Vec::new();
     for (k, piece) in (0..).zip(&plan.planes) {
-        for (g, _) in &piece.groups {
-            borders.extend(border(solid, segments, gone, *g).map(|e| (e, k)));
-        }
+        borders.extend(piece.edges(solid, segments, gone).into_iter().map(|e| (e, k)));
     }
     let first_curved = plan.planes.len() as u32;
     for (k, g) in (first_curved..).zip(&plan.curved) {
@@ -155,17 +160,15 @@ fn add_planes(
     for piece in &plan.planes {
         let mut outline = Outline { plane: piece.plane, edges: vec![], lines: vec![], inside: vec![] };
         let mut on_border: BTreeSet<u32> = BTreeSet::new();
-        for (g, same) in &piece.groups {
-            for [a, b] in border(solid, segments, gone, *g) {
-                let path = if *same { seams.path(a, b) } else { seams.path(b, a) };
-                on_border.extend(&path);
-                outline.edges.extend(path.windows(2).map(|w| [w[0], w[1]]));
-            }
+        for [a, b] in piece.edges(solid, segments, gone) {
+            let path = seams.path(a, b);
+            on_border.extend(&path);
+            outline.edges.extend(path.windows(2).map(|w| [w[0], w[1]]));
         }
         let on = |v: u32| piece.plane.height(sheet.positions[v as usize]).abs() < rounding;
         outline.lines = all.iter().copied().filter(|[a, b]| on(*a) && on(*b)).collect();
         let length = piece.edge_length.into_iter().chain(options.edge_length).min_by(f64::total_cmp);
-        if length.is_none() && !piece.is_step {
+        if length.is_none() && !piece.is_step && piece.outline.is_empty() {
             let near = Near::new(&outline, &sheet.positions, margin);
             let mut inside: BTreeSet<u32> = BTreeSet::new();
             for (g, _) in &piece.groups {

@@ -31,6 +31,7 @@ mod slivers;
 mod solid;
 mod star;
 mod straighten;
+mod terraces;
 mod thickness;
 mod topology;
 mod trials;

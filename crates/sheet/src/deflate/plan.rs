@@ -35,6 +35,26 @@ pub(super) struct PlanePiece {
     pub(super) is_step: bool,
     /// How long edges may be so that the thickness is nearly even in every triangle; `None` where it is even.
     pub(super) edge_length: Option<f64>,
+    /// Directed edges about the piece, as its plane faces, instead of the borders of its groups.
+    pub(super) outline: Vec<[u32; 2]>,
+}
+
+impl PlanePiece {
+    pub(super) fn new(plane: Plane, is_step: bool) -> Self {
+        Self { plane, groups: Vec::new(), is_step, edge_length: None, outline: Vec::new() }
+    }
+
+    /// The directed edges about the piece, as its plane faces.
+    pub(super) fn edges(&self, solid: &Solid, segments: &Segments, gone: &[bool]) -> Vec<[u32; 2]> {
+        if !self.outline.is_empty() {
+            return self.outline.clone();
+        }
+        let of_group = |(g, same): &(u32, bool)| {
+            let same = *same;
+            border(solid, segments, gone, *g).map(move |[a, b]| if same { [a, b] } else { [b, a] })
+        };
+        self.groups.iter().flat_map(of_group).collect()
+    }
 }
 
 /// The directed edges of a group to other groups, but for those that are gone.
@@ -73,12 +93,7 @@ pub(super) fn plan(
             Some((plane, number)) => {
                 let shared = middles.mid_planes.plane(number);
                 let piece = by_plane.entry(number);
-                let piece = piece.or_insert_with(|| PlanePiece {
-                    plane: shared,
-                    groups: Vec::new(),
-                    is_step: false,
-                    edge_length: None,
-                });
+                let piece = piece.or_insert_with(|| PlanePiece::new(shared, false));
                 piece.groups.push((g, plane.normal.dot(shared.normal) > 0.0));
                 let even = even_length(segments, walls, g);
                 piece.edge_length = match (piece.edge_length, even) {
@@ -156,12 +171,7 @@ fn steps(
             beside.iter().flat_map(|b| walls.partners(*b)).map(|p| p.thickness).fold(f64::MAX, f64::min);
         if width > STEP * thin && width < walls.max_thickness && width < 0.5 * longest {
             let origin = moved_plane(solid, segments, gone, g, moved, plane);
-            found.push(PlanePiece {
-                plane: origin,
-                groups: vec![(g, true)],
-                is_step: true,
-                edge_length: None,
-            });
+            found.push(PlanePiece { groups: vec![(g, true)], ..PlanePiece::new(origin, true) });
         }
     }
     found

@@ -1,0 +1,436 @@
+//! Plates whose thickness steps on both sides.
+//!
+//! Where a plate is stepped on one side only, that side is cut where its middle steps and is kept ([`super::sides`]). Where both sides have
+//! steps, neither knows of the other's: the outlines of both are laid over each other, and every cell between them has the middle of the
+//! two faces that lie over and under it there. Between cells of different middles stand steps.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+use spade::handles::FixedVertexHandle;
+use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};
+
+use super::assemble::Moved;
+use super::middle::Middles;
+use super::nearness::near_pairs;
+use super::plan::{PlanePiece, border};
+use super::plane::{Plane, PlaneTable};
+use super::seams::Merged;
+use super::segments::Segments;
+use super::sides::Parity;
+use super::solid::Solid;
+use super::walls::Walls;
+
+/// Faces of a plate are parallel to this cosine.
+const PARALLEL: f64 = 1.0 - 1e-9;
+/// Nodes over each other to this share of the solid's size are one.
+const ROUNDING: f64 = 1e-6;
+/// Plates with more edges than this are left as they are.
+const MOST_EDGES: usize = 100_000;
+
+/// A cell's middle, and the faces over and under it.
+type Cell = (u32, [u32; 2]);
+
+/// A node of the overlay.
+#[derive(Clone, Copy, Debug)]
+struct Corner {
+    at: Point2<f64>,
+    soft: bool,
+}
+
+impl HasPosition for Corner {
+    type Scalar = f64;
+    fn position(&self) -> Point2<f64> {
+        self.at
+    }
+}
+
+type Cdt = ConstrainedDelaunayTriangulation<Corner>;
+
+/// What is needed to lay outlines over each other.
+pub(super) struct Terraces<'a> {
+    pub(super) solid: &'a Solid,
+    pub(super) segments: &'a Segments,
+    pub(super) walls: &'a Walls,
+    pub(super) middles: &'a Middles,
+    /// Groups that the sheet is made without.
+    pub(super) gone: &'a [bool],
+}
+
+/// A plate's kept faces, those opposite to them, and where the kept ones face.
+struct Plate {
+    kept: Vec<u32>,
+    others: Vec<u32>,
+    normal: DVec3,
+}
+
+/// The outlines of a plate's faces, seen from the kept side.
+struct Outlines {
+    frame: [DVec3; 2],
+    origin: DVec3,
+    places: Vec<DVec2>,
+    /// Nodes of the solid, with their places.
+    nodes: Vec<(u32, u32)>,
+    /// Of every place, whether it is only as exact as chords are.
+    soft: Vec<bool>,
+    /// With their groups.
+    edges: Vec<(u32, [u32; 2])>,
+}
+
+impl Terraces<'_> {
+    /// Pieces of the plates that step on both sides, whose groups are kept no longer; their nodes are added to those that moved.
+    /// O(n log n) and cells times edges.
+    pub(super) fn pieces(&self, kept: &mut [bool], moved: &mut Moved) -> Vec<PlanePiece> {
+        let mut pieces = Vec::new();
+        for plate in self.plates(kept) {
+            if let Some(made) = self.cut(&plate, moved) {
+                plate.kept.iter().for_each(|g| kept[*g as usize] = false);
+                pieces.extend(made);
+            }
+        }
+        pieces
+    }
+
+    /// Plates a kept face of which has several middles.
+    fn plates(&self, kept: &[bool]) -> Vec<Plate> {
+        let n = self.segments.groups.len() as u32;
+        let mut sets = Parity::new(n as usize);
+        let has_middle = |g: u32| !self.middles.of_group[g as usize].is_empty();
+        for pair in self.walls.pairs.iter().filter(|p| has_middle(p.group) && has_middle(p.partner)) {
+            if self.middles.between(pair.group, pair.partner).is_some() {
+                sets.relate(pair.group, pair.partner, false);
+            }
+        }
+        let mut members: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+        for g in (0..n).filter(|g| has_middle(*g)) {
+            members.entry(sets.find(g).0).or_default().push(g);
+        }
+        let plate = |members: Vec<u32>| {
+            let (kept, others): (Vec<u32>, Vec<u32>) = members.into_iter().partition(|g| kept[*g as usize]);
+            if !kept.iter().any(|g| self.middles.of_group[*g as usize].len() > 1) {
+                return None;
+            }
+            let normal = self.segments.group(*kept.first()?).plane?.normal;
+            let faces = |g: &u32| self.segments.group(*g).plane.map_or(0.0, |p| p.normal.dot(normal));
+            let is_plate =
+                kept.iter().all(|g| faces(g) > PARALLEL) && others.iter().all(|g| faces(g) < -PARALLEL);
+            is_plate.then_some(Plate { kept, others, normal })
+        };
+        members.into_values().filter_map(plate).collect()
+    }
+
+    /// The pieces of a plate; `None` where outlines cannot be laid over each other.
+    fn cut(&self, plate: &Plate, moved: &mut Moved) -> Option<Vec<PlanePiece>> {
+        let outlines = self.outlines(plate, moved);
+        let (cdt, handles) = outlines.overlay()?;
+        let regions = regions(&cdt);
+        let cells = self.cells(plate, &outlines, &cdt, &regions);
+        let cell = |face: usize| cells[regions[face]?];
+        // What stands on the plate or is beside it stands where the plate is now: a step below a wall is not in its middle.
+        for &(node, place) in &outlines.nodes {
+            let Some(vertex) = handles.get(&place) else { continue };
+            let faces = cdt.vertex(*vertex).out_edges().map(|edge| edge.face().index());
+            let about: BTreeSet<u32> = faces.filter_map(|face| Some(cell(face)?.0)).collect();
+            if about.len() == 1
+                && let Some(number) = about.first()
+            {
+                let level = self.level(plate, *number);
+                let p = &mut moved.positions[node as usize];
+                *p -= level.normal * level.height(*p);
+            }
+        }
+        let mut nodes = Nodes { outlines: &outlines, cdt: &cdt, numbers: BTreeMap::new() };
+        let mut levels: BTreeMap<u32, (BTreeSet<u32>, Vec<[u32; 2]>)> = BTreeMap::new();
+        let mut steps = Vec::new();
+        for edge in cdt.directed_edges() {
+            let (left, right) = (cell(edge.face().index()), cell(edge.rev().face().index()));
+            let Some((number, groups)) = left.filter(|_| left != right) else { continue };
+            let ends = [edge.from().fix(), edge.to().fix()];
+            let level = self.level(plate, number);
+            let [a, b] = ends.map(|v| nodes.lifted(v, number, level, moved));
+            let (of, outline) = levels.entry(number).or_default();
+            of.extend(groups);
+            outline.push([a, b]);
+            // A step has a cell on both sides; it is made from the one with the smaller number.
+            if let Some((other, _)) = right.filter(|r| r.0 > number) {
+                let level = self.level(plate, other);
+                let [c, d] = ends.map(|v| nodes.lifted(v, other, level, moved));
+                steps.push([a, b, d, c]);
+            }
+        }
+        let levels = levels.into_iter().map(|(number, (groups, outline))| PlanePiece {
+            groups: groups.into_iter().map(|g| (g, true)).collect(),
+            outline,
+            ..PlanePiece::new(self.level(plate, number), false)
+        });
+        let mut pieces: Vec<PlanePiece> = levels.collect();
+        pieces.extend(self.steps(&steps, &moved.positions));
+        Some(pieces)
+    }
+
+    /// The middle of a number, facing as the kept side.
+    fn level(&self, plate: &Plate, number: u32) -> Plane {
+        let plane = self.middles.mid_planes.plane(number);
+        if plane.normal.dot(plate.normal) > 0.0 { plane } else { plane.flipped() }
+    }
+
+    /// Upright rectangles, those in one plane as one piece.
+    fn steps(&self, steps: &[[u32; 4]], positions: &[DVec3]) -> Vec<PlanePiece> {
+        let centre = self.solid.mesh.bounds().map_or(DVec3::ZERO, |[lo, hi]| (lo + hi) / 2.0);
+        let mut table = PlaneTable::new(self.solid.size, centre);
+        let mut pieces: BTreeMap<u32, PlanePiece> = BTreeMap::new();
+        for &[a, b, c, d] in steps {
+            let [p, q, r] = [a, b, c].map(|v| positions[v as usize]);
+            let normal = (q - p).cross(r - q).normalize_or_zero();
+            if normal == DVec3::ZERO {
+                continue;
+            }
+            let number = table.number(Plane { normal, offset: normal.dot(p) });
+            let piece = pieces.entry(number).or_insert_with(|| PlanePiece::new(table.plane(number), true));
+            piece.outline.extend([[a, b], [b, c], [c, d], [d, a]]);
+        }
+        pieces.into_values().collect()
+    }
+
+    /// Borders of all faces of a plate, from where its nodes moved to.
+    fn outlines(&self, plate: &Plate, moved: &Moved) -> Outlines {
+        let (x, y) = plate.normal.any_orthonormal_pair();
+        let sides = plate.kept.iter().chain(&plate.others);
+        let edges: Vec<(u32, [u32; 2])> =
+            sides.flat_map(|g| border(self.solid, self.segments, self.gone, *g).map(|e| (*g, e))).collect();
+        let mut nodes: Vec<u32> = edges.iter().flat_map(|e| e.1).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let origin = nodes.first().map_or(DVec3::ZERO, |v| moved.positions[*v as usize]);
+        let place = |v: &u32| {
+            let p = moved.positions[*v as usize] - origin;
+            DVec3::new(p.dot(x), p.dot(y), 0.0)
+        };
+        let places: Vec<DVec3> = nodes.iter().map(place).collect();
+        let all: Vec<u32> = (0..nodes.len() as u32).collect();
+        let mut merged = Merged::new(nodes.len());
+        for (a, b) in near_pairs(&places, &all, ROUNDING * self.solid.size) {
+            merged.join(a, b);
+        }
+        let number = |v: u32| nodes.binary_search(&v).map_or(0, |k| merged.find(k as u32));
+        let edges = edges.into_iter().map(|(g, e)| (g, e.map(number))).filter(|(_, [a, b])| a != b).collect();
+        let soft = nodes.iter().map(|v| moved.soft[*v as usize]).collect();
+        let nodes = nodes.iter().map(|v| (*v, number(*v))).collect();
+        Outlines {
+            frame: [x, y],
+            origin,
+            places: places.into_iter().map(DVec3::truncate).collect(),
+            soft,
+            nodes,
+            edges,
+        }
+    }
+
+    /// What lies over and under every region.
+    fn cells(
+        &self,
+        plate: &Plate,
+        outlines: &Outlines,
+        cdt: &Cdt,
+        regions: &[Option<usize>],
+    ) -> Vec<Option<Cell>> {
+        let count = regions.iter().flatten().max().map_or(0, |r| r + 1);
+        // A point in the largest triangle of each.
+        let mut largest = vec![(0.0f64, DVec2::ZERO); count];
+        for face in cdt.inner_faces() {
+            let Some(r) = regions[face.index()] else { continue };
+            let longest = face.adjacent_edges().into_iter().map(|e| e.length_2()).fold(0.0, f64::max).sqrt();
+            // What is no wider than rounding lies between outlines that should be one.
+            if face.area() > largest[r].0.max(ROUNDING * self.solid.size * longest) {
+                let Point2 { x, y } = face.center();
+                largest[r] = (face.area(), DVec2::new(x, y));
+            }
+        }
+        let over: Vec<BTreeSet<u32>> = largest.par_iter().map(|(_, p)| outlines.about(*p)).collect();
+        let of = |side: &[u32], r: usize| side.iter().copied().find(|g| over[r].contains(g));
+        let mut sides: Vec<[Option<u32>; 2]> =
+            (0..count).map(|r| [of(&plate.kept, r), of(&plate.others, r)]).collect();
+        // How long the borders of regions with each other are.
+        let mut shared: BTreeMap<[usize; 2], f64> = BTreeMap::new();
+        let mut is_outer = vec![false; count];
+        for edge in cdt.directed_edges() {
+            let Some(r) = regions[edge.face().index()] else { continue };
+            match regions[edge.rev().face().index()] {
+                Some(other) if other != r => *shared.entry([r, other]).or_default() += edge.length_2().sqrt(),
+                None => is_outer[r] = true,
+                _ => {}
+            }
+        }
+        // What is over nothing on either side is a hole; what is beside that and not over the kept side is so too.
+        let is_sliver: Vec<bool> = largest.iter().map(|(area, _)| *area == 0.0).collect();
+        let is_hole = |r: usize| sides[r] == [None, None] && !is_sliver[r];
+        let mut is_out: Vec<bool> = (0..count).map(is_hole).collect();
+        let mut more = true;
+        while std::mem::take(&mut more) {
+            for [r, other] in shared.keys() {
+                let beside = is_out[*other] || is_outer[*r];
+                if beside && sides[*r][0].is_none() && !is_out[*r] && !is_sliver[*r] {
+                    (is_out[*r], more) = (true, true);
+                }
+            }
+        }
+        let number = |s: [Option<u32>; 2]| {
+            let pair = [s[0]?, s[1]?];
+            Some((self.middles.between(pair[0], pair[1])?.1, pair))
+        };
+        let known = sides.iter().zip(&is_sliver).map(|(s, is_sliver)| number(*s).filter(|_| !is_sliver));
+        let mut cells: Vec<Option<Cell>> = known.collect();
+        // Where only one side is known, as below a rib, it is as beside that.
+        let mut by_length: Vec<([usize; 2], f64)> = shared.into_iter().collect();
+        by_length.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+        let mut more = true;
+        while std::mem::take(&mut more) {
+            for ([r, other], _) in &by_length {
+                if is_out[*r] || cells[*r].is_some() {
+                    continue;
+                }
+                if is_out[*other] {
+                    (is_out[*r], more) = (is_sliver[*r], more || is_sliver[*r]);
+                    continue;
+                }
+                let Some(beside) = cells[*other] else { continue };
+                let own = sides[*r];
+                let filled = [own[0].or(Some(beside.1[0])), own[1].or(Some(beside.1[1]))];
+                sides[*r] = filled;
+                cells[*r] = number(filled).or(Some(beside));
+                more = true;
+            }
+        }
+        cells.iter_mut().zip(is_out).filter(|(_, is_out)| *is_out).for_each(|(cell, _)| *cell = None);
+        cells
+    }
+}
+
+/// Nodes of the pieces by place and level.
+struct Nodes<'a> {
+    outlines: &'a Outlines,
+    cdt: &'a Cdt,
+    numbers: BTreeMap<(usize, u32), u32>,
+}
+
+impl Nodes<'_> {
+    fn lifted(&mut self, v: FixedVertexHandle, number: u32, level: Plane, moved: &mut Moved) -> u32 {
+        *self.numbers.entry((v.index(), number)).or_insert_with(|| {
+            let corner = *self.cdt.vertex(v).data();
+            let [x, y] = self.outlines.frame;
+            let p = self.outlines.origin + x * corner.at.x + y * corner.at.y;
+            moved.positions.push(p - level.normal * level.height(p));
+            moved.soft.push(corner.soft);
+            moved.blended.push(false);
+            moved.positions.len() as u32 - 1
+        })
+    }
+}
+
+impl Outlines {
+    /// The outlines cut where they cross, and the nodes of their places.
+    fn overlay(&self) -> Option<(Cdt, BTreeMap<u32, FixedVertexHandle>)> {
+        if self.edges.len() > MOST_EDGES {
+            return None;
+        }
+        let mut cdt = Cdt::new();
+        let mut handles: BTreeMap<u32, FixedVertexHandle> = BTreeMap::new();
+        for v in self.edges.iter().flat_map(|e| e.1) {
+            let (p, soft) = (self.places[v as usize], self.soft[v as usize]);
+            let at = spade::mitigate_underflow(Point2::new(p.x, p.y));
+            handles.insert(v, cdt.insert(Corner { at, soft }).ok()?);
+        }
+        let mut edges: Vec<[u32; 2]> = self.edges.iter().map(|(_, [a, b])| [*a.min(b), *a.max(b)]).collect();
+        edges.sort_unstable();
+        edges.dedup();
+        for [a, b] in edges {
+            let (p, q) = (handles[&a], handles[&b]);
+            if p != q {
+                cdt.add_constraint_and_split(p, q, |at| Corner { at, soft: false });
+            }
+        }
+        Some((cdt, handles))
+    }
+
+    /// The groups whose outline winds about a point.
+    fn about(&self, p: DVec2) -> BTreeSet<u32> {
+        let mut turns: BTreeMap<u32, i32> = BTreeMap::new();
+        for (g, ends) in &self.edges {
+            let [a, b] = ends.map(|v| self.places[v as usize]);
+            if (a.y <= p.y) != (b.y <= p.y) {
+                let left = (b - a).perp_dot(p - a) > 0.0;
+                if left == (b.y > a.y) {
+                    *turns.entry(*g).or_default() += if b.y > a.y { 1 } else { -1 };
+                }
+            }
+        }
+        turns.into_iter().filter(|(_, turns)| *turns != 0).map(|(g, _)| g).collect()
+    }
+}
+
+/// The region of every face: what no outline divides. `None` outside.
+fn regions(cdt: &Cdt) -> Vec<Option<usize>> {
+    let mut regions: Vec<Option<usize>> = vec![None; cdt.num_all_faces()];
+    let mut count = 0;
+    for seed in cdt.inner_faces() {
+        if regions[seed.index()].is_some() {
+            continue;
+        }
+        regions[seed.index()] = Some(count);
+        let mut stack = vec![seed.fix()];
+        while let Some(face) = stack.pop() {
+            for edge in cdt.face(face).adjacent_edges() {
+                let Some(other) = edge.rev().face().as_inner() else { continue };
+                if !edge.is_constraint_edge() && regions[other.index()].is_none() {
+                    regions[other.index()] = Some(count);
+                    stack.push(other.fix());
+                }
+            }
+        }
+        count += 1;
+    }
+    regions
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+    use super::*;
+
+    /// Two rectangles that cross in the middle of their sides.
+    fn cross() -> Outlines {
+        let rectangle = |x: f64, y: f64| [[-x, -y], [x, -y], [x, y], [-x, y]].map(DVec2::from);
+        let places = [rectangle(3.0, 1.0), rectangle(1.0, 2.0)].concat();
+        let edges = (0..8).map(|k| (k / 4, [k, k / 4 * 4 + (k + 1) % 4])).collect();
+        Outlines {
+            frame: [DVec3::X, DVec3::Y],
+            origin: DVec3::ZERO,
+            soft: vec![false; 8],
+            nodes: vec![],
+            places,
+            edges,
+        }
+    }
+
+    #[test]
+    fn outlines_are_cut_where_they_cross() {
+        let outlines = cross();
+        let (cdt, _) = outlines.overlay().unwrap();
+        assert_eq!(cdt.num_vertices(), 12);
+        let regions = regions(&cdt);
+        // By the groups about it, the area of every region.
+        let mut areas: BTreeMap<Vec<u32>, f64> = BTreeMap::new();
+        for face in cdt.inner_faces() {
+            let Point2 { x, y } = face.center();
+            let about = outlines.about(DVec2::new(x, y)).into_iter().collect();
+            *areas.entry(about).or_default() += face.area();
+        }
+        assert_eq!(areas[&vec![0, 1]], 4.0);
+        assert_eq!((areas[&vec![0]], areas[&vec![1]]), (8.0, 4.0));
+        // One in the middle, four arms, and four corners of the hull that are outside.
+        let different: BTreeSet<usize> = regions.into_iter().flatten().collect();
+        assert_eq!(different.len(), 9);
+    }
+}
