@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 
 use glam::DVec3;
 
+use super::DeflateOptions;
 use super::fill::{Outline, fill};
 use super::middle::Middles;
 use super::nearness::Nearness;
@@ -16,7 +17,6 @@ use super::slivers::{cancel_doubles, contract};
 use super::solid::Solid;
 use super::terraces::Terraces;
 use super::walls::Walls;
-use super::{DeflateOptions, Steps};
 
 /// Edges of curved pieces shorter than this share of the wall's thickness close when they got that short by moving.
 const CLOSED: f64 = 0.02;
@@ -76,9 +76,8 @@ pub(super) fn assemble(
     options: &DeflateOptions,
 ) -> Sheet {
     let (mut kept, mut moved) = (kept.to_vec(), moved.clone());
-    let terraces = Terraces { solid, segments, walls, middles, gone };
-    let terraces =
-        if options.steps == Steps::Apart { vec![] } else { terraces.pieces(&mut kept, &mut moved) };
+    let terraces = Terraces { solid, segments, walls, middles, gone, steps: options.steps };
+    let terraces = terraces.pieces(&mut kept, &mut moved);
     let mut plan = plan(solid, segments, walls, middles, gone, &kept, &moved, options);
     plan.planes.extend(terraces);
     let Moved { positions: moved, soft, .. } = &moved;

@@ -235,8 +235,12 @@ impl Blends {
                 others.iter().filter(near).filter(goes).find(|r| walls.is_wall[r.1.group as usize])
             };
             let at_corner: Vec<&&Reach> = ways.filter_map(on_the_way).collect();
-            let mut behind: Vec<Belongs> = near_walls.chain(at_corner).chain(ends).map(|r| r.1).collect();
-            behind.dedup();
+            let mut behind: Vec<Belongs> = Vec::new();
+            for reach in near_walls.chain(at_corner).chain(ends) {
+                if !behind.contains(&reach.1) {
+                    behind.push(reach.1);
+                }
+            }
             let behind = if behind.is_empty() { self.at_an_end(walls, &own, &reached) } else { behind };
             if !behind.is_empty() {
                 of_node.insert(node, behind);

@@ -44,8 +44,6 @@ pub use options::{DeflateOptions, Steps};
 pub use report::{DeflateReport, Feature, SkinFace, ThicknessRange, UnpairedFace, WallPair};
 pub use shape::Shape;
 
-use std::collections::BTreeSet;
-
 use mesh_kernel::TriMesh;
 
 use assemble::{Sheet, Source};
@@ -248,7 +246,7 @@ pub fn deflate(
         },
         max_thickness: walls.max_thickness,
         paired_share: walls.paired_share,
-        steps: steps_of(&sheet, &segments, &walls),
+        steps: steps_of(&mesh, &patched.order, &sheet, &segments, &walls),
         self_intersections: crossing.len(),
         lost_edges: sheet.lost,
         solid_volume: solid.volume,
@@ -256,13 +254,13 @@ pub fn deflate(
     Ok(Deflated { sheet: mesh, thickness, report })
 }
 
-/// How many faces of the solid stand between two middles and are in the sheet.
-fn steps_of(sheet: &Sheet, segments: &Segments, walls: &Walls) -> usize {
-    let step = |source: &Source| match *source {
-        Source::Plane(k) => sheet.planes[k as usize].1.then_some((0, k)),
-        Source::Facet(f) => (!walls.is_wall[segments.of(f) as usize]).then_some((1, segments.of(f))),
+/// How many patches stand between two middles.
+fn steps_of(mesh: &TriMesh, order: &[u32], sheet: &Sheet, segments: &Segments, walls: &Walls) -> usize {
+    let is_step = |f: u32| match sheet.sources[order[f as usize] as usize] {
+        Source::Plane(k) => sheet.planes[k as usize].1,
+        Source::Facet(f) => !walls.is_wall[segments.of(f) as usize],
     };
-    sheet.sources.iter().filter_map(step).collect::<BTreeSet<_>>().len()
+    mesh.groups.iter().filter(|patch| patch.faces.clone().any(is_step)).count()
 }
 
 /// A face no wider than this many thicknesses is the end of a wall, or a blend.

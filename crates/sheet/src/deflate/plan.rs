@@ -35,7 +35,7 @@ pub(super) struct PlanePiece {
     pub(super) is_step: bool,
     /// How long edges may be so that the thickness is nearly even in every triangle; `None` where it is even.
     pub(super) edge_length: Option<f64>,
-    /// Directed edges about the piece, as its plane faces, instead of the borders of its groups.
+    /// Directed edges about the piece, as its plane faces; if there are any, the borders of its groups do not count.
     pub(super) outline: Vec<[u32; 2]>,
 }
 

@@ -46,7 +46,9 @@ const SMOOTH: f64 = 20.0 / 180.0 * std::f64::consts::PI;
 /// Rounds of moving the nodes of facets that turned over upright.
 const TURNED_ROUNDS: usize = 4;
 /// Rounds of taking nodes along that no wall holds.
-const ALONG_ROUNDS: usize = 50;
+const ALONG_ROUNDS: usize = 300;
+/// It ends when none moves by more than this share of the solid's size.
+const ALONG_SETTLED: f64 = 1e-7;
 /// A chain of edges that turns by more than this, in radians, has a corner there.
 const CORNER_TURN: f64 = std::f64::consts::FRAC_PI_4;
 
@@ -126,8 +128,12 @@ impl Replacement<'_> {
         for &v in &loose {
             positions[v as usize] = at(v);
         }
-        for _ in 0..ALONG_ROUNDS {
-            for &v in &loose {
+        let settled = ALONG_SETTLED * solid.size;
+        for round in 0..ALONG_ROUNDS {
+            let mut farthest = 0.0f64;
+            for k in 0..loose.len() {
+                // There and back, so that it does not matter much how nodes are numbered.
+                let v = loose[if round % 2 == 0 { k } else { loose.len() - 1 - k }];
                 let (mut shift, mut weight) = (DVec3::ZERO, 0.0);
                 for corner in self.star.of(v) {
                     let [_, w] = solid.adjacency.ends(*corner);
@@ -135,7 +141,12 @@ impl Replacement<'_> {
                     shift += (positions[w as usize] - at(w)) * near;
                     weight += near;
                 }
-                positions[v as usize] = at(v) + shift / weight;
+                let p = at(v) + shift / weight;
+                farthest = farthest.max(p.distance(positions[v as usize]));
+                positions[v as usize] = p;
+            }
+            if farthest < settled {
+                break;
             }
         }
     }

@@ -115,7 +115,7 @@ fn close_slits(sheet: &mut Sheet, cancelled: Vec<[u32; 3]>) {
             sheet.faces[f] = [p, c, r];
             sheet.faces.push([c, q, r]);
             sheet.sources.push(sheet.sources[f]);
-            for (edge, face) in [([p, c], f), ([c, q], added)] {
+            for (edge, face) in [([p, c], f), ([c, q], added), ([c, r], f), ([c, r], added)] {
                 if let Some(list) = faces_at.get_mut(&key(edge[0], edge[1])) {
                     list.push(face);
                 }

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};
 
+use super::Steps;
 use super::assemble::Moved;
 use super::middle::Middles;
 use super::nearness::near_pairs;
@@ -26,8 +27,10 @@ use super::walls::Walls;
 const PARALLEL: f64 = 1.0 - 1e-9;
 /// Nodes over each other to this share of the solid's size are one.
 const ROUNDING: f64 = 1e-6;
+/// A line across a plate begins this many of the largest thickness before it.
+const START: f64 = 1.5;
 /// Plates with more edges than this are left as they are.
-const MOST_EDGES: usize = 100_000;
+const MOST_EDGES: usize = 10_000;
 
 /// A cell's middle, and the faces over and under it.
 type Cell = (u32, [u32; 2]);
@@ -56,6 +59,7 @@ pub(super) struct Terraces<'a> {
     pub(super) middles: &'a Middles,
     /// Groups that the sheet is made without.
     pub(super) gone: &'a [bool],
+    pub(super) steps: Steps,
 }
 
 /// A plate's kept faces, those opposite to them, and where the kept ones face.
@@ -76,6 +80,8 @@ struct Outlines {
     soft: Vec<bool>,
     /// With their groups.
     edges: Vec<(u32, [u32; 2])>,
+    /// What is nearer than this is one, in mm.
+    rounding: f64,
 }
 
 impl Terraces<'_> {
@@ -125,7 +131,10 @@ impl Terraces<'_> {
         let outlines = self.outlines(plate, moved);
         let (cdt, handles) = outlines.overlay()?;
         let regions = regions(&cdt);
-        let cells = self.cells(plate, &outlines, &cdt, &regions);
+        let mut cells = self.cells(plate, &outlines, &cdt, &regions)?;
+        if self.steps == Steps::Aligned {
+            align(&mut cells, &cdt, &regions);
+        }
         let cell = |face: usize| cells[regions[face]?];
         // What stands on the plate or is beside it stands where the plate is now: a step below a wall is not in its middle.
         for &(node, place) in &outlines.nodes {
@@ -153,7 +162,7 @@ impl Terraces<'_> {
             of.extend(groups);
             outline.push([a, b]);
             // A step has a cell on both sides; it is made from the one with the smaller number.
-            if let Some((other, _)) = right.filter(|r| r.0 > number) {
+            if let Some((other, _)) = right.filter(|r| r.0 > number && self.steps != Steps::Apart) {
                 let level = self.level(plate, other);
                 let [c, d] = ends.map(|v| nodes.lifted(v, other, level, moved));
                 steps.push([a, b, d, c]);
@@ -224,17 +233,25 @@ impl Terraces<'_> {
             soft,
             nodes,
             edges,
+            rounding: ROUNDING * self.solid.size,
         }
     }
 
-    /// What lies over and under every region.
+    /// Whether a line across the plate at a point meets its material.
+    fn is_inside(&self, plate: &Plate, p: DVec3) -> bool {
+        let start = p + plate.normal * (START * self.walls.max_thickness);
+        let hit = self.solid.caster.first(start, -plate.normal, 0.0, 2.0 * START * self.walls.max_thickness);
+        hit.is_some()
+    }
+
+    /// What lies over and under every region; `None` where one lies between more than two faces: a plate that forks.
     fn cells(
         &self,
         plate: &Plate,
         outlines: &Outlines,
         cdt: &Cdt,
         regions: &[Option<usize>],
-    ) -> Vec<Option<Cell>> {
+    ) -> Option<Vec<Option<Cell>>> {
         let count = regions.iter().flatten().max().map_or(0, |r| r + 1);
         // A point in the largest triangle of each.
         let mut largest = vec![(0.0f64, DVec2::ZERO); count];
@@ -248,6 +265,10 @@ impl Terraces<'_> {
             }
         }
         let over: Vec<BTreeSet<u32>> = largest.par_iter().map(|(_, p)| outlines.about(*p)).collect();
+        let count_of = |side: &[u32], r: usize| side.iter().filter(|g| over[r].contains(g)).count();
+        if (0..count).any(|r| count_of(&plate.kept, r) > 1 || count_of(&plate.others, r) > 1) {
+            return None;
+        }
         let of = |side: &[u32], r: usize| side.iter().copied().find(|g| over[r].contains(g));
         let mut sides: Vec<[Option<u32>; 2]> =
             (0..count).map(|r| [of(&plate.kept, r), of(&plate.others, r)]).collect();
@@ -262,9 +283,12 @@ impl Terraces<'_> {
                 _ => {}
             }
         }
-        // What is over nothing on either side is a hole; what is beside that and not over the kept side is so too.
+        // What is over nothing on either side is a hole, but where slanting steps of both sides lie over each other; what is beside a hole
+        // and not over the kept side is so too.
         let is_sliver: Vec<bool> = largest.iter().map(|(area, _)| *area == 0.0).collect();
-        let is_hole = |r: usize| sides[r] == [None, None] && !is_sliver[r];
+        let is_hole = |r: usize| {
+            sides[r] == [None, None] && !is_sliver[r] && !self.is_inside(plate, outlines.lifted(largest[r].1))
+        };
         let mut is_out: Vec<bool> = (0..count).map(is_hole).collect();
         let mut more = true;
         while std::mem::take(&mut more) {
@@ -303,7 +327,7 @@ impl Terraces<'_> {
             }
         }
         cells.iter_mut().zip(is_out).filter(|(_, is_out)| *is_out).for_each(|(cell, _)| *cell = None);
-        cells
+        Some(cells)
     }
 }
 
@@ -318,8 +342,7 @@ impl Nodes<'_> {
     fn lifted(&mut self, v: FixedVertexHandle, number: u32, level: Plane, moved: &mut Moved) -> u32 {
         *self.numbers.entry((v.index(), number)).or_insert_with(|| {
             let corner = *self.cdt.vertex(v).data();
-            let [x, y] = self.outlines.frame;
-            let p = self.outlines.origin + x * corner.at.x + y * corner.at.y;
+            let p = self.outlines.lifted(DVec2::new(corner.at.x, corner.at.y));
             moved.positions.push(p - level.normal * level.height(p));
             moved.soft.push(corner.soft);
             moved.blended.push(false);
@@ -329,6 +352,11 @@ impl Nodes<'_> {
 }
 
 impl Outlines {
+    fn lifted(&self, p: DVec2) -> DVec3 {
+        let [x, y] = self.frame;
+        self.origin + x * p.x + y * p.y
+    }
+
     /// The outlines cut where they cross, and the nodes of their places.
     fn overlay(&self) -> Option<(Cdt, BTreeMap<u32, FixedVertexHandle>)> {
         if self.edges.len() > MOST_EDGES {
@@ -341,7 +369,8 @@ impl Outlines {
             let at = spade::mitigate_underflow(Point2::new(p.x, p.y));
             handles.insert(v, cdt.insert(Corner { at, soft }).ok()?);
         }
-        let mut edges: Vec<[u32; 2]> = self.edges.iter().map(|(_, [a, b])| [*a.min(b), *a.max(b)]).collect();
+        let mut edges: Vec<[u32; 2]> = self.parts();
+        edges.iter_mut().for_each(|[a, b]| (*a, *b) = ((*a).min(*b), (*a).max(*b)));
         edges.sort_unstable();
         edges.dedup();
         for [a, b] in edges {
@@ -351,6 +380,28 @@ impl Outlines {
             }
         }
         Some((cdt, handles))
+    }
+
+    /// The edges cut at places on them.
+    fn parts(&self) -> Vec<[u32; 2]> {
+        let mut places: Vec<u32> = self.edges.iter().flat_map(|e| e.1).collect();
+        places.sort_unstable();
+        places.dedup();
+        let parts = |(_, [a, b]): &(u32, [u32; 2])| {
+            let (p, q) = (self.places[*a as usize], self.places[*b as usize]);
+            let along = q - p;
+            let on_edge = |v: &u32| {
+                let to = self.places[*v as usize] - p;
+                let s = to.dot(along) / along.length_squared();
+                let is_within = v != a && v != b && s > 0.0 && s < 1.0;
+                (is_within && (to - along * s).length() <= self.rounding).then_some((s, *v))
+            };
+            let mut on: Vec<(f64, u32)> = places.iter().filter_map(on_edge).collect();
+            on.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
+            let nodes: Vec<u32> = [*a].into_iter().chain(on.into_iter().map(|n| n.1)).chain([*b]).collect();
+            nodes.windows(2).map(|w| [w[0], w[1]]).collect::<Vec<_>>()
+        };
+        self.edges.par_iter().flat_map_iter(parts).collect()
     }
 
     /// The groups whose outline winds about a point.
@@ -366,6 +417,19 @@ impl Outlines {
             }
         }
         turns.into_iter().filter(|(_, turns)| *turns != 0).map(|(g, _)| g).collect()
+    }
+}
+
+/// Gives all cells the middle that most of the plate has.
+fn align(cells: &mut [Option<Cell>], cdt: &Cdt, regions: &[Option<usize>]) {
+    let mut areas: BTreeMap<u32, f64> = BTreeMap::new();
+    for face in cdt.inner_faces() {
+        if let Some((number, _)) = regions[face.index()].and_then(|r| cells[r]) {
+            *areas.entry(number).or_default() += face.area();
+        }
+    }
+    if let Some((most, _)) = areas.into_iter().max_by(|a, b| a.1.total_cmp(&b.1)) {
+        cells.iter_mut().flatten().for_each(|cell| cell.0 = most);
     }
 }
 
@@ -411,6 +475,7 @@ mod tests {
             nodes: vec![],
             places,
             edges,
+            rounding: 1e-9,
         }
     }
 
