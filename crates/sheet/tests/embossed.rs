@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 
 use mesh_kernel::TriMesh;
 use mesh_kernel::glam::DVec3;
-use sheet::deflate::{DeflateOptions, Nobody, deflate};
+use sheet::deflate::{DeflateOptions, Nobody, Steps, deflate};
 use solid_models::turned;
 
 const CELL: f64 = 2.2;
@@ -271,4 +271,29 @@ fn signs_on_both_sides_are_steps() {
             assert!((o.area / r.area - 1.0).abs() < 1e-6, "{what}: {} mm² turned, {}", o.area, r.area);
         }
     }
+}
+
+#[test]
+fn signs_on_both_sides_obey_what_is_said_of_steps() {
+    let is_mirrored = |i: usize, j: usize| is_sign(SIGNS[0].len() - 1 - i, (j + 1).min(SIGNS.len() - 1));
+    let solid = between(
+        |i, j| FLOOR + if is_mirrored(i, j) { 0.5 } else { 0.0 },
+        |i, j| FLOOR + PLATE - if is_sign(i, j) { 0.4 } else { 0.0 },
+    );
+    let area = (SIGNS[0].len() * SIGNS.len()) as f64 * CELL * CELL;
+    let with =
+        |steps| deflate(&solid, &DeflateOptions { steps, ..DeflateOptions::default() }, &Nobody).unwrap();
+    let apart = with(Steps::Apart).report;
+    assert!(apart.components > 1, "{} parts", apart.components);
+    assert_eq!((apart.steps, apart.self_intersections, apart.lost_edges), (0, 0, 0));
+    assert!((apart.area - area).abs() < 1e-6, "{} mm² of {area}", apart.area);
+    let aligned = with(Steps::Aligned);
+    let r = &aligned.report;
+    assert_eq!((r.components, r.steps, r.self_intersections, r.lost_edges), (1, 0, 0, 0));
+    assert!((r.area - area).abs() < 1e-6, "{} mm² of {area}", r.area);
+    let middle = FLOOR + PLATE / 2.0;
+    assert!(aligned.sheet.positions.iter().all(|p| (p.z - middle).abs() < 1e-9));
+    let volume: f64 =
+        (0u32..).zip(&aligned.thickness).map(|(f, t)| aligned.sheet.area_normal(f).length() / 2.0 * t).sum();
+    assert!((volume / r.solid_volume - 1.0).abs() < 1e-9, "{} of the volume", volume / r.solid_volume);
 }

@@ -29,6 +29,8 @@ const PARALLEL: f64 = 1.0 - 1e-9;
 const ROUNDING: f64 = 1e-6;
 /// A line across a plate begins this many of the largest thickness before it.
 const START: f64 = 1.5;
+/// Faces of one side lie over each other where a plate forks, if by more than this share of the largest thickness: chords may by less.
+const FORK: f64 = 0.1;
 /// Plates with more edges than this are left as they are.
 const MOST_EDGES: usize = 10_000;
 
@@ -265,8 +267,10 @@ impl Terraces<'_> {
             }
         }
         let over: Vec<BTreeSet<u32>> = largest.par_iter().map(|(_, p)| outlines.about(*p)).collect();
-        let count_of = |side: &[u32], r: usize| side.iter().filter(|g| over[r].contains(g)).count();
-        if (0..count).any(|r| count_of(&plate.kept, r) > 1 || count_of(&plate.others, r) > 1) {
+        let wide = FORK * self.walls.max_thickness;
+        let is_forked = |side: &[u32], r: usize| side.iter().filter(|g| over[r].contains(g)).count() > 1;
+        let forked = (0..count).filter(|r| is_forked(&plate.kept, *r) || is_forked(&plate.others, *r));
+        if forked.map(|r| width(cdt, regions, r)).any(|width| width > wide) {
             return None;
         }
         let of = |side: &[u32], r: usize| side.iter().copied().find(|g| over[r].contains(g));
@@ -418,6 +422,15 @@ impl Outlines {
         }
         turns.into_iter().filter(|(_, turns)| *turns != 0).map(|(g, _)| g).collect()
     }
+}
+
+/// Twice the area of a region over its outline. O(faces).
+fn width(cdt: &Cdt, regions: &[Option<usize>], r: usize) -> f64 {
+    let is_own = |face: usize| regions[face] == Some(r);
+    let area: f64 = cdt.inner_faces().filter(|f| is_own(f.index())).map(|f| f.area()).sum();
+    let outline =
+        cdt.directed_edges().filter(|e| is_own(e.face().index()) && !is_own(e.rev().face().index()));
+    2.0 * area / outline.map(|e| e.length_2().sqrt()).sum::<f64>().max(f64::MIN_POSITIVE)
 }
 
 /// Gives all cells the middle that most of the plate has.
