@@ -46,7 +46,7 @@ const SMOOTH: f64 = 20.0 / 180.0 * std::f64::consts::PI;
 /// Rounds of moving the nodes of facets that turned over upright.
 const TURNED_ROUNDS: usize = 4;
 /// Rounds of taking nodes along that no wall holds.
-const ALONG_ROUNDS: usize = 300;
+const ALONG_ROUNDS: usize = 60;
 /// It ends when none moves by more than this share of the solid's size.
 const ALONG_SETTLED: f64 = 1e-7;
 /// A chain of edges that turns by more than this, in radians, has a corner there.
