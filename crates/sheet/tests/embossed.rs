@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 
 use mesh_kernel::TriMesh;
 use mesh_kernel::glam::DVec3;
-use sheet::deflate::{DeflateOptions, Nobody, Steps, deflate};
+use sheet::deflate::{DeflateOptions, Deflated, Nobody, Steps, deflate};
 use solid_models::turned;
 
 const CELL: f64 = 2.2;
@@ -32,6 +32,39 @@ const SIGNS: [&str; 13] = [
 
 fn is_sign(i: usize, j: usize) -> bool {
     SIGNS[j].as_bytes()[i] == b'x'
+}
+
+fn is_rim(i: usize, j: usize) -> bool {
+    i == 0 || j == 0 || i == SIGNS[0].len() - 1 || j == SIGNS.len() - 1
+}
+
+/// A sign for the other side.
+fn is_mirrored(i: usize, j: usize) -> bool {
+    is_sign(SIGNS[0].len() - 1 - i, (j + 1).min(SIGNS.len() - 1))
+}
+
+/// Fails unless every level face lies halfway between the two heights of its cell and is as thick; the area of those in some cells.
+fn area_in_the_middle(
+    thin: &Deflated,
+    what: &str,
+    heights: impl Fn(usize, usize) -> [f64; 2],
+    counts: impl Fn(usize, usize) -> bool,
+) -> f64 {
+    let mut sum = 0.0;
+    for (f, t) in (0u32..).zip(&thin.thickness) {
+        let across = thin.sheet.area_normal(f) / 2.0;
+        if across.z.abs() < 0.5 * across.length() {
+            continue;
+        }
+        let [p, q, r] = thin.sheet.corners(f);
+        let middle = (p + q + r) / 3.0;
+        let [i, j] = [middle.x, middle.y].map(|x| (x / CELL) as usize);
+        let [low, high] = heights(i, j);
+        assert!((middle.z - (low + high) / 2.0).abs() < 1e-9, "{what}: {middle} is not in the middle");
+        assert!((t - (high - low)).abs() < 1e-9, "{what}: {t} mm thick at {middle}");
+        sum += if counts(i, j) { across.length() } else { 0.0 };
+    }
+    sum
 }
 
 /// What lies between two heights over every cell.
@@ -93,9 +126,8 @@ fn plate(signs: f64) -> TriMesh {
 
 /// A tray whose signs are so thick, seen from outside.
 fn tray(signs: f64) -> TriMesh {
-    let is_wall = |i, j| i == 0 || j == 0 || i == SIGNS[0].len() - 1 || j == SIGNS.len() - 1;
     let low = move |i, j| FLOOR + PLATE - if is_sign(i, j) { signs } else { PLATE };
-    between(low, move |i, j| FLOOR + PLATE + if is_wall(i, j) { 20.0 } else { 0.0 })
+    between(low, move |i, j| FLOOR + PLATE + if is_rim(i, j) { 20.0 } else { 0.0 })
 }
 
 /// Where the tray stands: levels are not below 0.
@@ -110,20 +142,9 @@ fn signs_on_a_plate_are_steps() {
         let what = format!("signs {signs}");
         assert_eq!((r.self_intersections, r.lost_edges, r.components), (0, 0, 1), "{what}");
         // Every cell is in the middle of its own thickness.
-        let (mut of_signs, mut of_plate) = (0.0, 0.0);
-        for (f, t) in (0u32..).zip(&thin.thickness) {
-            let across = thin.sheet.area_normal(f) / 2.0;
-            if across.z.abs() < 0.5 * across.length() {
-                continue;
-            }
-            let [p, q, r] = thin.sheet.corners(f);
-            let middle = (p + q + r) / 3.0;
-            let [i, j] = [middle.x, middle.y].map(|x| (x / CELL) as usize);
-            let wanted = if is_sign(i, j) { signs } else { PLATE };
-            assert!((middle.z - wanted / 2.0).abs() < 1e-9, "{what}: {middle} is not in the middle");
-            assert!((t - wanted).abs() < 1e-9, "{what}: {t} mm thick at {middle}");
-            *(if is_sign(i, j) { &mut of_signs } else { &mut of_plate }) += across.length();
-        }
+        let heights = |i, j| [0.0, if is_sign(i, j) { signs } else { PLATE }];
+        let [of_signs, of_plate] =
+            [true, false].map(|sign| area_in_the_middle(&thin, &what, heights, |i, j| is_sign(i, j) == sign));
         let cells = |sign: bool| {
             let all = (0..SIGNS.len()).flat_map(|j| (0..SIGNS[0].len()).map(move |i| is_sign(i, j)));
             all.filter(|s| *s == sign).count() as f64 * CELL * CELL
@@ -143,21 +164,8 @@ fn signs_on_the_outside_of_a_tray_are_steps() {
         let what = format!("signs {signs}");
         assert_eq!((r.self_intersections, r.lost_edges, r.components), (0, 0, 1), "{what}");
         assert_eq!((r.joints, r.free_loops), (0, 1), "{what}");
-        let mut of_signs = 0.0;
-        for (f, t) in (0u32..).zip(&thin.thickness) {
-            let across = thin.sheet.area_normal(f) / 2.0;
-            if across.z.abs() < 0.5 * across.length() {
-                continue;
-            }
-            let [p, q, r] = thin.sheet.corners(f);
-            let middle = (p + q + r) / 3.0;
-            let [i, j] = [middle.x, middle.y].map(|x| (x / CELL) as usize);
-            let wanted = if is_sign(i, j) { signs } else { PLATE };
-            let height = FLOOR + PLATE - wanted / 2.0;
-            assert!((middle.z - height).abs() < 1e-9, "{what}: {middle} is not in the middle");
-            assert!((t - wanted).abs() < 1e-9, "{what}: {t} mm thick at {middle}");
-            of_signs += if is_sign(i, j) { across.length() } else { 0.0 };
-        }
+        let heights = |i, j| [FLOOR + PLATE - if is_sign(i, j) { signs } else { PLATE }, FLOOR + PLATE];
+        let of_signs = area_in_the_middle(&thin, &what, heights, is_sign);
         let cells = SIGNS.concat().matches('x').count() as f64 * CELL * CELL;
         assert!((of_signs - cells).abs() < 1e-6, "{what}: {of_signs} mm² of {cells}");
     }
@@ -231,37 +239,19 @@ fn sides_of_round_pockets_follow_their_edges() {
 /// Engraved and embossed on both sides, over each other and beside each other.
 #[test]
 fn signs_on_both_sides_are_steps() {
-    let is_mirrored = |i: usize, j: usize| is_sign(SIGNS[0].len() - 1 - i, (j + 1).min(SIGNS.len() - 1));
-    let is_wall = |i, j| i == 0 || j == 0 || i == SIGNS[0].len() - 1 || j == SIGNS.len() - 1;
     for (below, above) in [(0.5, 0.4), (0.5, -0.5), (-0.3, 0.6), (-0.4, -0.6)] {
         for walls in [0.0, 20.0] {
             let what = format!("{below} below, {above} above, walls {walls}");
             let low = |i, j| FLOOR + if is_mirrored(i, j) { below } else { 0.0 };
             let high = |i, j| FLOOR + PLATE - if is_sign(i, j) { above } else { 0.0 };
-            let solid = between(low, |i, j| high(i, j) + if is_wall(i, j) { walls } else { 0.0 });
+            let solid = between(low, |i, j| high(i, j) + if is_rim(i, j) { walls } else { 0.0 });
             let thin = deflate(&solid, &DeflateOptions::default(), &Nobody).unwrap();
             let r = &thin.report;
             assert_eq!((r.self_intersections, r.lost_edges, r.components), (0, 0, 1), "{what}");
             // Cells that touch at a corner only and step the same way have an upright edge in common, of four steps.
             let joints = if (below > 0.0) == (above > 0.0) { 0 } else { r.joints };
             assert_eq!((r.joints, r.free_loops), (joints, 1), "{what}");
-            let mut covered = 0.0;
-            for (f, t) in (0u32..).zip(&thin.thickness) {
-                let across = thin.sheet.area_normal(f) / 2.0;
-                if across.z.abs() < 0.5 * across.length() {
-                    continue;
-                }
-                let [p, q, r] = thin.sheet.corners(f);
-                let middle = (p + q + r) / 3.0;
-                let [i, j] = [middle.x, middle.y].map(|x| (x / CELL) as usize);
-                let (low, high) = (low(i, j), high(i, j));
-                assert!(
-                    (middle.z - (low + high) / 2.0).abs() < 1e-9,
-                    "{what}: {middle} is not in the middle"
-                );
-                assert!((t - (high - low)).abs() < 1e-9, "{what}: {t} mm thick at {middle}");
-                covered += across.length();
-            }
+            let covered = area_in_the_middle(&thin, &what, |i, j| [low(i, j), high(i, j)], |_, _| true);
             let short = if walls > 0.0 { CELL } else { 0.0 };
             let [width, depth] = [SIGNS[0].len(), SIGNS.len()].map(|n| n as f64 * CELL - short);
             assert!((covered - width * depth).abs() < 1e-6, "{what}: {covered} mm² of {}", width * depth);
@@ -275,7 +265,6 @@ fn signs_on_both_sides_are_steps() {
 
 #[test]
 fn signs_on_both_sides_obey_what_is_said_of_steps() {
-    let is_mirrored = |i: usize, j: usize| is_sign(SIGNS[0].len() - 1 - i, (j + 1).min(SIGNS.len() - 1));
     let solid = between(
         |i, j| FLOOR + if is_mirrored(i, j) { 0.5 } else { 0.0 },
         |i, j| FLOOR + PLATE - if is_sign(i, j) { 0.4 } else { 0.0 },
