@@ -124,6 +124,53 @@ fn a_thick_base_below_thin_fins_is_a_wall() {
     near(thin.report.thickness.min, fin, 1e-9);
 }
 
+/// Slats that are wider than thick: their sides lie opposite to each other as well, and are ends nevertheless.
+#[test]
+fn slats_between_slots_are_as_thick_as_their_plate() {
+    for (slat, slot) in [(4.0, 4.0), (5.5, 3.0), (2.9, 2.9)] {
+        let mut comb = vec![[0.0, 0.0], [8.0 * slat + 7.0 * slot, 0.0]];
+        for k in (0..8).map(f64::from).rev() {
+            let right = k * (slat + slot) + slat;
+            comb.extend([[right, 40.0], [right - slat, 40.0]]);
+            if k > 0.0 {
+                comb.extend([[right - slat, 6.0], [right - slat - slot, 6.0]]);
+            }
+        }
+        let plate = prism(&comb, 2.5, 1);
+        for plate in [&plate, &turned(&plate)] {
+            let thin = deflated(plate);
+            has_topology(&thin, [1, 0, 1, 1]);
+            near(thin.report.area, 8.0 * slat * 40.0 + 7.0 * slot * 6.0, 1e-9);
+            near(thin.report.thickness.min, 2.5, 1e-9);
+            near(thin.report.thickness.max, 2.5, 1e-9);
+            near(thin.report.max_thickness, 2.55, 1e-9);
+        }
+    }
+}
+
+/// The nose of a hook is a lump without a middle; its ends are no walls.
+#[test]
+fn a_snap_hook_is_a_plate_with_a_leaf() {
+    let hook = [
+        [0.0, 0.0],
+        [40.0, 0.0],
+        [40.0, 2.0],
+        [21.5, 2.0],
+        [21.5, 16.0],
+        [23.5, 18.0],
+        [21.5, 22.0],
+        [20.0, 22.0],
+        [20.0, 2.0],
+        [0.0, 2.0],
+    ];
+    let solid = prism(&hook, 10.0, 1);
+    for solid in [&solid, &turned(&solid)] {
+        let thin = deflated(solid);
+        has_topology(&thin, [3, 1, 2, 1]);
+        assert_eq!(thin.report.steps, 0);
+    }
+}
+
 #[test]
 fn turned_and_inside_out_it_is_the_same() {
     let solid = turned(&prism(&TEE, 40.0, 2));

@@ -67,7 +67,7 @@ fn area_in_the_middle(
     sum
 }
 
-/// What lies between two heights over every cell.
+/// What lies between two heights over every cell; nothing where they are the same.
 fn between(low: impl Fn(usize, usize) -> f64, high: impl Fn(usize, usize) -> f64) -> TriMesh {
     let (n, m) = (SIGNS[0].len(), SIGNS.len());
     let mut mesh = TriMesh::new(Vec::new(), Vec::new());
@@ -80,6 +80,9 @@ fn between(low: impl Fn(usize, usize) -> f64, high: impl Fn(usize, usize) -> f64
     for i in 0..n {
         for j in 0..m {
             let [bottom, top] = [low(i, j), high(i, j)];
+            if bottom >= top {
+                continue;
+            }
             quad([at(i, j, top), at(i + 1, j, top), at(i + 1, j + 1, top), at(i, j + 1, top)]);
             quad([at(i, j, bottom), at(i, j + 1, bottom), at(i + 1, j + 1, bottom), at(i + 1, j, bottom)]);
         }
@@ -285,4 +288,32 @@ fn signs_on_both_sides_obey_what_is_said_of_steps() {
     let volume: f64 =
         (0u32..).zip(&aligned.thickness).map(|(f, t)| aligned.sheet.area_normal(f).length() / 2.0 * t).sum();
     assert!((volume / r.solid_volume - 1.0).abs() < 1e-9, "{} of the volume", volume / r.solid_volume);
+}
+
+/// A leaf goes on beyond the rim of a wall, set off on one side, and overlaps it on the other one: steps on both sides, and the wall's end
+/// is a step where the leaf begins.
+#[test]
+fn a_leaf_that_goes_on_beyond_a_rim_is_joined_to_it_once() {
+    let rim = SIGNS.len() / 2;
+    let is_leaf = |i: usize| (8..14).contains(&i);
+    let heights = |i: usize, j: usize| match (is_leaf(i), j) {
+        (true, 2..4) => [0.0, PLATE + 0.5],
+        (false, j) if j < rim => [0.0, PLATE],
+        (true, j) if j < rim => [0.0, PLATE + 0.5],
+        (true, j) if j < rim + 5 => [0.7, PLATE + 0.5],
+        _ => [0.0, 0.0],
+    };
+    let heights = |i: usize, j: usize| if j < 2 { [0.0, PLATE] } else { heights(i, j) };
+    // Two ribs that end at the rim as well.
+    let is_rib = |i: usize, j: usize| [3, 20].contains(&i) && j < rim;
+    let high = |i: usize, j: usize| if is_rib(i, j) { 20.0 } else { heights(i, j)[1] };
+    let solid = between(|i, j| heights(i, j)[0], high);
+    let thin = deflate(&solid, &DeflateOptions::default(), &Nobody).unwrap();
+    let r = &thin.report;
+    assert_eq!((r.self_intersections, r.lost_edges, r.components), (0, 0, 1));
+    let area = area_in_the_middle(&thin, "leaf", heights, |_, _| true);
+    let cells = (SIGNS[0].len() * rim + 6 * 5) as f64 * CELL * CELL;
+    assert!((area - cells).abs() < 1e-9, "{area} mm² of {cells}");
+    // Two steps beside the leaf, one at its lower end, and one where it goes on.
+    assert_eq!((r.patches, r.steps, r.joints), (11, 4, 2));
 }

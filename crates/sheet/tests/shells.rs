@@ -193,3 +193,61 @@ fn poles_that_are_meshed_roughly_are_one_sheet() {
         assert!(farthest < most, "{what}: {farthest} mm off the middle");
     }
 }
+
+/// A bent strip whose ends are upright on it: along a bulged one of them, the outer face has a row of nodes more than the inner one, so that
+/// what looks like the node opposite to the inner border lies beside the outer one.
+#[test]
+fn a_border_stays_on_its_end_where_only_one_side_has_another_row() {
+    let (rows, columns) = (30u32, 40u32);
+    let reach = |angle: f64| 40.0 - 20.0 * angle * angle;
+    let at = |u: f64, v: f64, off: f64| {
+        let angle = u - 0.5;
+        DVec3::new((60.0 + off) * angle.sin(), reach(angle) * v, (60.0 + off) * angle.cos())
+    };
+    for before in [0.3, 0.5, 0.7] {
+        let cell = 1.0 / f64::from(rows);
+        let inner: Vec<f64> = (0..=rows).map(|k| f64::from(k) * cell).collect();
+        // The row that belongs to the border of the inner side lies this part of a cell before that of the outer one.
+        let mut outer: Vec<f64> = inner.clone();
+        outer[rows as usize] -= before * cell;
+        outer.push(1.0);
+        let nodes = columns + 1;
+        let mut mesh = TriMesh::default();
+        for (rows, off) in [(&inner, -1.0), (&outer, 1.0)] {
+            for v in rows {
+                mesh.positions.extend((0..nodes).map(|k| at(f64::from(k) / f64::from(columns), *v, off)));
+            }
+        }
+        let n = inner.len() as u32 * nodes;
+        for (start, rows, flip) in [(0, rows, true), (n, rows + 1, false)] {
+            for (i, j) in (0..rows).flat_map(|i| (0..columns).map(move |j| (i, j))) {
+                let [a, b, c, d] =
+                    [(i, j), (i, j + 1), (i + 1, j + 1), (i + 1, j)].map(|(i, j)| start + i * nodes + j);
+                let quad = [[a, b, c], [a, c, d]];
+                mesh.faces.extend(quad.map(|[a, b, c]| if flip { [a, c, b] } else { [a, b, c] }));
+            }
+        }
+        let (last_inner, last_outer) = (rows * nodes, n + (rows + 1) * nodes);
+        for k in 0..columns {
+            mesh.faces.extend([[k, k + 1, n + k + 1], [k, n + k + 1, n + k]]);
+            let (a, b) = (last_inner + k, last_outer + k);
+            mesh.faces.extend([[a + 1, a, b], [a + 1, b, b + 1]]);
+        }
+        for (column, flip) in [(0, true), (columns, false)] {
+            let mut add = |[a, b, c]: [u32; 3]| mesh.faces.push(if flip { [a, c, b] } else { [a, b, c] });
+            for i in 0..rows {
+                let (a, b) = (i * nodes + column, n + i * nodes + column);
+                add([a, a + nodes, b + nodes]);
+                add([a, b + nodes, b]);
+            }
+            add([last_inner + column, last_outer + column, last_outer - nodes + column]);
+        }
+        let thin = deflate(&mesh, &DeflateOptions::default(), &Nobody).unwrap();
+        let r = &thin.report;
+        assert_eq!([r.patches, r.joints, r.free_loops, r.components], [1, 0, 1, 1], "{before}");
+        // How far to the border every node is, as a share of the strip's reach there.
+        let places = thin.sheet.positions.iter().map(|p| p.y / reach(p.x.atan2(p.z)));
+        let astray = |v: &f64| *v > 1.0 - 0.9 * before * cell && (v - 1.0).abs() > 0.05 * cell;
+        assert_eq!(places.filter(astray).count(), 0, "{before}");
+    }
+}

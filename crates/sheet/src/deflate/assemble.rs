@@ -16,7 +16,7 @@ use super::segments::Segments;
 use super::slivers::{cancel_doubles, contract};
 use super::solid::Solid;
 use super::terraces::Terraces;
-use super::walls::Walls;
+use super::walls::{Walls, mean_thickness};
 
 /// Edges of curved pieces shorter than this share of the wall's thickness close when they got that short by moving.
 const CLOSED: f64 = 0.02;
@@ -78,10 +78,9 @@ pub(super) fn assemble(
     let (mut kept, mut moved) = (kept.to_vec(), moved.clone());
     let terraces = Terraces { solid, segments, walls, middles, gone, steps: options.steps };
     let terraces = terraces.pieces(&mut kept, &mut moved);
-    let mut plan = plan(solid, segments, walls, middles, gone, &kept, &moved, options);
-    plan.planes.extend(terraces);
+    let plan = plan(solid, segments, walls, middles, gone, &kept, &moved, terraces, options);
     let Moved { positions: moved, soft, .. } = &moved;
-    let thickness = mean_thickness(walls);
+    let thickness = mean_thickness(&walls.pairs).unwrap_or(0.0);
     let near = Nearness { rounding: ROUNDING * solid.size, chords: CHORDS * thickness };
     let merged = closed_edges(solid, segments, &plan, moved, CLOSED * thickness);
     let mut borders: Vec<([u32; 2], u32)> = Vec::new();
@@ -109,11 +108,6 @@ pub(super) fn assemble(
     contract(&mut sheet, first_curved, &on_border, SHORT * thickness);
     cancel_doubles(&mut sheet);
     sheet.without_unused_nodes()
-}
-
-fn mean_thickness(walls: &Walls) -> f64 {
-    let area: f64 = walls.pairs.iter().map(|p| p.area).sum();
-    walls.pairs.iter().map(|p| p.area * p.thickness).sum::<f64>() / area.max(f64::MIN_POSITIVE)
 }
 
 /// Edges of curved pieces that got very short close.

@@ -16,6 +16,8 @@ use super::{DeflateOptions, Steps};
 const PARALLEL: f64 = 1e-4;
 /// The thickness changes by this share along an edge of a wall with draft.
 const EVEN: f64 = 0.01;
+/// Between walls whose normals differ by a sine of more than this are no steps.
+const PARALLEL_LEVELS: f64 = 0.15;
 /// Strips narrower than this share of the thickness are no steps.
 const STEP: f64 = 0.02;
 
@@ -70,7 +72,8 @@ pub(super) fn border(
     sides.filter(move |h| beyond(h) != g && !gone[beyond(h) as usize]).map(|h| solid.adjacency.ends(h))
 }
 
-/// Sorts the kept groups into plane pieces and curved ones. O(groups · planes).
+/// Sorts the kept groups into plane pieces and curved ones; `terraces` are pieces of plates that are made already, steps and all.
+/// O(groups · planes).
 #[allow(clippy::too_many_arguments, reason = "one call, all of them what was found before")]
 pub(super) fn plan(
     solid: &Solid,
@@ -80,6 +83,7 @@ pub(super) fn plan(
     gone: &[bool],
     kept: &[bool],
     moved: &Moved,
+    terraces: Vec<PlanePiece>,
     options: &DeflateOptions,
 ) -> Plan {
     let mut by_plane: BTreeMap<u32, PlanePiece> = BTreeMap::new();
@@ -114,9 +118,11 @@ pub(super) fn plan(
         }
     }
     if options.steps != Steps::Apart {
-        planes.extend(steps(solid, segments, walls, gone, kept, &moved.positions));
+        let terraced: BTreeSet<u32> = terraces.iter().flat_map(|piece| &piece.groups).map(|g| g.0).collect();
+        planes.extend(steps(solid, segments, walls, middles, gone, kept, &terraced, &moved.positions));
         curved.extend(round_steps(solid, segments, walls, gone, kept, moved));
     }
+    planes.extend(terraces);
     Plan { planes, curved }
 }
 
@@ -131,12 +137,15 @@ fn even_length(segments: &Segments, walls: &Walls, g: u32) -> Option<f64> {
 }
 
 /// Faces without a partner that stand between two middles: where the thickness steps.
+#[allow(clippy::too_many_arguments, reason = "one call, all of them what was found before")]
 fn steps(
     solid: &Solid,
     segments: &Segments,
     walls: &Walls,
+    middles: &Middles,
     gone: &[bool],
     kept: &[bool],
+    terraced: &BTreeSet<u32>,
     moved: &[DVec3],
 ) -> Vec<PlanePiece> {
     let mut found = Vec::new();
@@ -149,11 +158,13 @@ fn steps(
             let others = (3 * f..3 * f + 3).map(|h| segments.of(solid.across(h)));
             beside.extend(others);
         }
-        // Round ends that run into it have nodes that stay where they are.
+        // Round ends that run into it have nodes that stay where they are, and so have lumps at the ends of walls.
         let is_round = |o: &u32| segments.group(*o).plane.is_none() && !walls.is_wall[*o as usize];
-        let is_end = beside.iter().any(is_round) && is_end(walls, &beside, kept);
+        let may_be_end = beside.iter().any(is_round) || !has_levels(segments, middles, &beside, kept);
+        let is_end = may_be_end && is_end(walls, &beside, kept);
+        let is_terraced = beside.iter().any(|o| terraced.contains(o));
         beside.retain(|o| kept[*o as usize]);
-        if beside.len() < 2 || is_end {
+        if beside.len() < 2 || is_end || is_terraced {
             continue;
         }
         // Twice the area that is left, and its outline.
@@ -175,6 +186,19 @@ fn steps(
         }
     }
     found
+}
+
+/// Whether two of some kept groups are parallel and may have different middles.
+fn has_levels(segments: &Segments, middles: &Middles, beside: &BTreeSet<u32>, kept: &[bool]) -> bool {
+    let of = |g: &u32| segments.group(*g).plane.zip(middles.only(*g));
+    let walls: Vec<_> = beside.iter().filter(|g| kept[**g as usize]).map(of).collect();
+    let differ = |a: &Option<(Plane, Plane)>, b: &Option<(Plane, Plane)>| match (a, b) {
+        (Some((own, middle)), Some((other, other_middle))) => {
+            own.normal.cross(other.normal).length() < PARALLEL_LEVELS && middle != other_middle
+        }
+        _ => true,
+    };
+    (1..walls.len()).any(|k| walls[..k].iter().any(|a| differ(a, &walls[k])))
 }
 
 /// Whether a face beside some groups is the end of all walls there: what reaches from a wall to its partner is the end of both.

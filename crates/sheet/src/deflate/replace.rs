@@ -263,7 +263,10 @@ impl Replacement<'_> {
         let middle = self.twins.middle(v)?;
         let is_near = |plane: &Plane| plane.height(middle).abs() < TWIN_OFF * wanted.thickness;
         let all = planes.iter().chain(wanted.facets.iter().map(|f| &f.0)).all(is_near);
-        (all && !wanted.facets.is_empty()).then_some(middle)
+        // Twins at the end of a wall have it in common: a node of the border and one beside it only resemble each other.
+        let ends = &wanted.end_facets;
+        let at_end = ends.is_empty() || ends.iter().any(|f| is_near(&f.0));
+        (all && at_end && !wanted.facets.is_empty()).then_some(middle)
     }
 
     fn wanted(&self, v: u32) -> Wanted {

@@ -185,7 +185,7 @@ impl Trials<'_> {
 
     /// The sheet read off facet by facet, if it can be.
     fn read_off(&self) -> Option<Made> {
-        let mut sheet = read_off(self.solid, self.walls)?;
+        let mut sheet = read_off(self.solid, self.segments, self.walls)?;
         if let Some(length) = self.options.edge_length {
             split_to(&mut sheet, self.solid, length);
         }

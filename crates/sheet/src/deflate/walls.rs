@@ -1,5 +1,7 @@
 //! Which groups are walls, and which groups lie opposite to each other (Sheen et al. 2008, section 6.1).
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -34,6 +36,10 @@ const HAIR: f64 = 0.03;
 const TRIFLE: f64 = 0.3;
 /// A strip that is narrower than this share of its thickness is no wall.
 const NARROW: f64 = 0.5;
+/// The end of a wall that is thinner than this share of what the end itself would be as a wall: more than this share of its outline
+/// is on both sides of that wall.
+const THINNER: f64 = 0.9;
+const MOST_OF: f64 = 0.6;
 /// Neighbours are as thick if they are by this share.
 const ALIKE: f64 = 0.1;
 /// Rays begin this far inside, over the solid's size.
@@ -162,8 +168,7 @@ impl Walls {
                 let least = if group.plane.is_some() { PAIRED_PLANE } else { PAIRED_CURVED };
                 let partners = walls.partners(g);
                 let paired: f64 = partners.iter().map(|p| p.area).sum();
-                let thick = partners.iter().map(|p| p.area * p.thickness).sum::<f64>() / paired;
-                (paired > 0.0 && paired >= least * group.area).then_some(thick)
+                mean_thickness(partners).filter(|_| paired >= least * group.area)
             })
             .collect();
         let walled = || thick.iter().zip(&segments.groups).filter_map(|(t, g)| t.map(|t| (t, g.area)));
@@ -181,7 +186,8 @@ impl Walls {
                 walls.is_wall[g as usize] = beside.any(|o| o != g && thick[o as usize].is_some_and(alike));
             }
         }
-        for g in sides_of_low_things(solid, segments, &thick) {
+        let ends = ends_of_thinner_walls(solid, segments, &walls.pairs, &thick);
+        for g in sides_of_low_things(solid, segments, &thick).into_iter().chain(ends) {
             walls.is_wall[g as usize] = false;
         }
         // Who is no wall is nobody's partner.
@@ -191,9 +197,7 @@ impl Walls {
 
     /// The pairs that begin with a group.
     pub(super) fn partners(&self, group: u32) -> &[Pair] {
-        let from = self.pairs.partition_point(|p| p.group < group);
-        let to = self.pairs.partition_point(|p| p.group <= group);
-        &self.pairs[from..to]
+        partners_in(&self.pairs, group)
     }
 
     /// What is opposite to a point of a face, if it is near enough and looks back.
@@ -267,6 +271,50 @@ fn sides_of_low_things(solid: &Solid, segments: &Segments, thick: &[Option<f64>]
     (0..thick.len() as u32).filter(|g| is_side[*g as usize]).collect()
 }
 
+/// Groups that are the ends of thinner walls, even if they have a partner: the sides of slats that are wider than thick. What is about
+/// both of them, across sharp edges that stick out, lies opposite to each other. O(n log n).
+fn ends_of_thinner_walls(
+    solid: &Solid,
+    segments: &Segments,
+    pairs: &[Pair],
+    thick: &[Option<f64>],
+) -> Vec<u32> {
+    // How long the outline of a group is, and its sharp borders that stick out, by the group beyond.
+    let about = |g: u32| {
+        let (mut outline, mut about) = (0.0, BTreeMap::new());
+        for h in sides(segments, g) {
+            let other = segments.of(solid.across(h));
+            if other != g {
+                outline += solid.length(h);
+                if solid.fold_cosine(h) < SHARP.cos() && solid.is_convex(h) {
+                    *about.entry(other).or_insert(0.0) += solid.length(h);
+                }
+            }
+        }
+        (outline, about)
+    };
+    let is_end = |(g, own): (u32, f64)| {
+        let (outline, mut beside) = about(g);
+        let thinner = |p: &Pair, beside: &BTreeMap<u32, f64>| {
+            p.thickness < THINNER * own && beside.contains_key(&p.partner)
+        };
+        let ends_here =
+            |o: u32, beside: &BTreeMap<u32, f64>| partners_in(pairs, o).iter().any(|p| thinner(p, beside));
+        let most = |beside: &BTreeMap<u32, f64>| {
+            let ending = beside.iter().filter(|(o, _)| ends_here(**o, beside));
+            ending.map(|(_, length)| length).sum::<f64>() > MOST_OF * outline
+        };
+        most(&beside) && {
+            let main = partners_in(pairs, g).iter().max_by(|p, q| p.area.total_cmp(&q.area));
+            let opposite = main.map_or_else(BTreeMap::new, |p| about(p.partner).1);
+            beside.retain(|o, _| opposite.contains_key(o));
+            most(&beside)
+        }
+    };
+    let walled = (0..).zip(thick).filter_map(|(g, t)| Some((g, (*t)?)));
+    walled.filter(|wall| is_end(*wall)).map(|(g, _)| g).collect()
+}
+
 /// Whether smooth edges about each face bend away from each other on the whole. O(n).
 fn is_proud(solid: &Solid) -> Vec<bool> {
     let bend = |h: u32| if solid.fold_cosine(h) > SHARP.cos() { solid.bend(h) } else { 0.0 };
@@ -294,16 +342,14 @@ pub(super) fn spread([a, b, c]: [DVec3; 3], n: u32) -> impl Iterator<Item = DVec
 /// Thicknesses and areas of looks from what is no end of a wall and no side of something low, the thinnest first. Where hardly anything
 /// else is, as in a block, from everywhere.
 fn broad(solid: &Solid, segments: &Segments, looks: &[Look]) -> Vec<(f64, f64)> {
-    let mut sums = vec![(0.0, 0.0); segments.groups.len()];
-    for look in looks {
-        if let Some((_, thickness)) = look.seen {
-            let sum = &mut sums[look.group as usize];
-            *sum = (sum.0 + look.area * thickness, sum.1 + look.area);
-        }
-    }
-    let thick: Vec<Option<f64>> = sums.iter().map(|(sum, all)| (*all > 0.0).then_some(sum / all)).collect();
+    let pairs = pairs_of(looks);
+    let thick: Vec<Option<f64>> =
+        (0..segments.groups.len() as u32).map(|g| mean_thickness(partners_in(&pairs, g))).collect();
     let mut is_broad = vec![true; thick.len()];
-    sides_of_low_things(solid, segments, &thick).into_iter().for_each(|g| is_broad[g as usize] = false);
+    let ends = ends_of_thinner_walls(solid, segments, &pairs, &thick);
+    for g in sides_of_low_things(solid, segments, &thick).into_iter().chain(ends) {
+        is_broad[g as usize] = false;
+    }
     let seen = |look: &Look| Some((look.seen?.1, look.area));
     let area = |seen: &[(f64, f64)]| seen.iter().map(|s| s.1).sum::<f64>();
     let all: Vec<(f64, f64)> = looks.iter().filter_map(seen).collect();
@@ -365,6 +411,20 @@ fn thick_plates<'a>(
     })
 }
 
+/// The pairs that begin with a group, of pairs that are ordered by it.
+fn partners_in(pairs: &[Pair], group: u32) -> &[Pair] {
+    let from = pairs.partition_point(|p| p.group < group);
+    let to = pairs.partition_point(|p| p.group <= group);
+    &pairs[from..to]
+}
+
+/// The mean thickness of pairs, by area; `None` if they have none.
+pub(super) fn mean_thickness(pairs: &[Pair]) -> Option<f64> {
+    let area: f64 = pairs.iter().map(|p| p.area).sum();
+    (area > 0.0).then(|| pairs.iter().map(|p| p.area * p.thickness).sum::<f64>() / area)
+}
+
+/// The pairs that some looks make, ordered by group, then by partner.
 fn pairs_of(looks: &[Look]) -> Vec<Pair> {
     let mut seen: Vec<(u32, u32, f64, f64)> =
         looks.iter().filter_map(|l| l.seen.map(|(partner, s)| (l.group, partner, l.area, s))).collect();

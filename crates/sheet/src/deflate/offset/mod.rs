@@ -16,7 +16,7 @@ use mesh_kernel::query::{Adjacency, ClosestPoint};
 
 use super::assemble::{Sheet, Source, cut};
 use super::seams::Merged;
-use super::segments::longest_side;
+use super::segments::{Segments, longest_side};
 use super::solid::Solid;
 use super::walls::Walls;
 use places::{Place, close, join, places, settle, starts};
@@ -47,12 +47,16 @@ const CUT: f64 = 1.1;
 const WRONG: f64 = 1e-3;
 /// A sheet is there where it is as near as this share of the thickness to the middle of two facets.
 const THERE: f64 = 5e-2;
+/// Walls that folds have cut away from have their middle as near as this share of the thickness.
+const ABOUT: f64 = 0.3;
+/// And this share of them may be missing.
+const MISSING_WALLS: f64 = 0.03;
 /// And this share of what the solid has two facets for may be missing: rounds may lie opposite to each other.
 const MISSING: f64 = 1e-2;
 
 /// The sheet that a solid is made of, if it can be read off: a manifold in one piece all facets of which lie between those of the
 /// solid. O(n log n), with few rounds.
-pub(super) fn read_off(solid: &Solid, walls: &Walls) -> Option<Sheet> {
+pub(super) fn read_off(solid: &Solid, segments: &Segments, walls: &Walls) -> Option<Sheet> {
     if solid.len() > MOST_FACETS {
         return None;
     }
@@ -99,7 +103,9 @@ pub(super) fn read_off(solid: &Solid, walls: &Walls) -> Option<Sheet> {
     // Where folds follow on each other closely, both sides have lost so much that they only fit together as they are.
     let read = Read { solid, facets: &facets, sides: &sides, lone: &lone, sure: &sure };
     let sheets = [true, false].into_iter().map(|swaps| read.sheet(merged.clone(), at.clone(), swaps));
-    sheets.into_iter().find(|sheet| is_right(sheet, solid, &sides, &paired))
+    sheets.into_iter().find(|sheet| {
+        is_right(sheet, solid, &sides, &paired) && is_whole(sheet, solid, segments, walls, sides.thickness)
+    })
 }
 
 /// What a sheet is read off from.
@@ -338,4 +344,19 @@ fn is_right(sheet: &Sheet, solid: &Solid, sides: &Sides, paired: &[u32]) -> bool
     let is_missing = |f: &&u32| closest.closest_within(image(**f), THERE * sides.thickness).is_none();
     let missing: f64 = paired.iter().filter(is_missing).map(|f| solid.areas[*f as usize]).sum();
     turned < WRONG * all && missing < MISSING * all
+}
+
+/// Whether a sheet is there wherever the solid has walls, round ones too, whose facets have no facet opposite to them but parts of some.
+fn is_whole(sheet: &Sheet, solid: &Solid, segments: &Segments, walls: &Walls, thickness: f64) -> bool {
+    let closest = ClosestPoint::new(&TriMesh::new(sheet.positions.clone(), sheet.faces.clone()));
+    let (mut all, mut missing) = (0.0, 0.0);
+    for f in (0..solid.len()).filter(|f| walls.is_wall[segments.of(*f) as usize]) {
+        let Some(opposite) = walls.opposite_middle(solid, segments, f) else { continue };
+        let middle = solid.centroid(f) - solid.normals[f as usize] * (opposite.distance / 2.0);
+        all += solid.areas[f as usize];
+        if closest.closest_within(middle, ABOUT * thickness).is_none() {
+            missing += solid.areas[f as usize];
+        }
+    }
+    missing <= MISSING_WALLS * all
 }
