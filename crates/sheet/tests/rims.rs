@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use mesh_kernel::TriMesh;
 use rim_support::{
-    area, bracket, circle, half_rounded_rim, outline, plate, plate_with_hole, rounded_rim, tube,
+    Rim, area, bracket, circle, half_rounded_rim, outline, plate, plate_with_hole, rounded_rim, tube,
 };
 use sheet::deflate::{DeflateOptions, Deflated, Nobody, deflate};
 use solid_models::{prism, revolved, turned};
@@ -29,6 +29,12 @@ fn has_topology(thin: &Deflated, wanted: [usize; 4], what: &str) {
     let r = &thin.report;
     assert_eq!([r.patches, r.joints, r.free_loops, r.components], wanted, "{what}: {r:?}");
     assert_eq!((r.self_intersections, r.lost_edges), (0, 0), "{what}");
+}
+
+/// Of a closed outline, in mm.
+fn length(outline: &[[f64; 2]]) -> f64 {
+    let next = outline.iter().cycle().skip(1);
+    outline.iter().zip(next).map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1])).sum()
 }
 
 /// Sheet times thickness as a share of the solid.
@@ -144,5 +150,47 @@ fn a_bracket_rounded_on_one_side_is_one_wall() {
             is_whole(radius, &rounded_rim(2.0, round, chords), false, &what);
         }
         is_whole(radius, &rounded_rim(2.0, 0.5, 1), true, &format!("chamfers all around, bend {radius}"));
+    }
+}
+
+/// A tray with round upright edges that is sharp below and has a fillet about its floor: the insides of its bends run into the fillet.
+#[test]
+fn upright_bends_above_a_fillet_are_walls() {
+    for (chords, fillet) in [(8u32, 3.0), (8, 4.0), (16, 3.0)] {
+        let what = format!("fillet {fillet} in {chords}");
+        let shape = |inward| outline([90.0, 70.0], 8.0, chords, inward);
+        let quarter = (0..=chords).map(|k| FRAC_PI_2 * f64::from(k) / f64::from(chords));
+        let down = quarter.map(|a| [2.0 + fillet * (1.0 - a.cos()), 2.0 + fillet * (1.0 - a.sin())]);
+        let profile: Rim = [[0.0, 0.0], [0.0, 25.0], [2.0, 25.0]].into_iter().chain(down).collect();
+        let solid = plate(shape, &profile);
+        for solid in [&solid, &turned(&solid)] {
+            let thin = deflated(solid);
+            has_topology(&thin, [2, 0, 1, 1], &what);
+            near(thin.report.area, area(&shape(1.0)) + length(&shape(1.0)) * 24.0, 2e-3, &what);
+        }
+    }
+}
+
+/// A tray whose walls are half as thick for the last few millimetres, as lids have it. Its corners have few chords, about as wide as that
+/// lip is high: the lip's flat sides are planes nevertheless.
+#[test]
+fn a_lip_at_the_rim_is_half_as_thick_all_round() {
+    for chords in [3, 4, 6] {
+        let what = format!("{chords} chords");
+        let shape = |inward| outline([90.0, 60.0], 8.0, chords, inward);
+        let profile = [[0.0, 0.0], [0.0, 21.0], [1.2, 21.0], [1.2, 24.0], [2.4, 24.0], [2.4, 2.4]];
+        let solid = plate(shape, &profile);
+        for solid in [&solid, &turned(&solid)] {
+            let thin = deflated(solid);
+            let r = &thin.report;
+            assert_eq!([r.free_loops, r.components], [1, 1], "{what}: {r:?}");
+            assert_eq!((r.self_intersections, r.lost_edges), (0, 0), "{what}");
+            let areas =
+                (0..).zip(&thin.thickness).map(|(f, t)| (thin.sheet.area_normal(f).length() / 2.0, t));
+            let of_lip: f64 = areas.filter(|(_, t)| **t < 1.4).map(|a| a.0).sum();
+            // The steps between the lip and the wall, .6 wide, are as thin as it.
+            near(of_lip, length(&shape(1.8)) * 3.0 + length(&shape(1.5)) * 0.6, 0.02, &what);
+            near(volume_share(&thin), 1.0, 0.03, &what);
+        }
     }
 }

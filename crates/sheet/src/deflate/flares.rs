@@ -206,15 +206,43 @@ impl Walls {
             .collect()
     }
 
+    /// Insides of bends that run into fillets, as the upright edges of a box run into those of its floor: round faces of groups that are
+    /// no walls which face other round walls all along.
+    pub(super) fn bends(&self, solid: &Solid, segments: &Segments, faces: &Faces) -> Vec<Vec<u32>> {
+        let is_bend = |face: &&Face| {
+            let g = segments.of(face.triangles[0]);
+            let is_round = !matches!(face.shape, Shape::Plane { .. } | Shape::Freeform);
+            is_round
+                && !self.is_wall[g as usize]
+                && segments.group(g).faces.len() > face.triangles.len()
+                && self.faces_along(solid, segments, &face.triangles, &|o| {
+                    let wall = segments.of(o) as usize;
+                    self.is_wall[wall] && segments.groups[wall].plane.is_none()
+                })
+        };
+        faces.list.iter().filter(is_bend).map(|face| face.triangles.clone()).collect()
+    }
+
     /// Whether most of a face is nearly parallel to what is opposite: a fillet is so only where it ends.
     fn is_inside_of_a_bend(&self, solid: &Solid, segments: &Segments, triangles: &[u32]) -> bool {
-        let faces_along = |f: &&u32| {
-            let opposite = self.opposite_middle(solid, segments, **f);
+        self.faces_along(solid, segments, triangles, &|_| true)
+    }
+
+    /// The same, of what is opposite and counts.
+    fn faces_along(
+        &self,
+        solid: &Solid,
+        segments: &Segments,
+        triangles: &[u32],
+        counts: &dyn Fn(u32) -> bool,
+    ) -> bool {
+        let is_along = |f: &&u32| {
+            let opposite = self.opposite_middle(solid, segments, **f).filter(|o| counts(o.face));
             opposite.is_some_and(|o| {
                 solid.normals[**f as usize].dot(-solid.normals[o.face as usize]) > ALONG.cos()
             })
         };
         let area = |of: &mut dyn Iterator<Item = &u32>| of.map(|f| solid.areas[*f as usize]).sum::<f64>();
-        area(&mut triangles.iter().filter(faces_along)) > MOST * area(&mut triangles.iter())
+        area(&mut triangles.iter().filter(is_along)) > MOST * area(&mut triangles.iter())
     }
 }

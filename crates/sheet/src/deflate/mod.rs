@@ -161,9 +161,10 @@ pub fn deflate(
     }
     let mut faces = Faces::new(&solid, &segments);
     let mut wall_pairs = report::wall_pairs(&solid, &segments, &walls, &faces);
-    let fillets = walls.fillets(&solid, &segments, &faces, &wall_pairs);
-    if !fillets.is_empty() {
-        segments.split_off(&fillets, &solid);
+    let mut parts = walls.fillets(&solid, &segments, &faces, &wall_pairs);
+    parts.extend(walls.bends(&solid, &segments, &faces));
+    if !parts.is_empty() {
+        segments.split_off(&parts, &solid);
         walls.pair(&solid, &segments, options);
         faces = Faces::new(&solid, &segments);
         wall_pairs = report::wall_pairs(&solid, &segments, &walls, &faces);

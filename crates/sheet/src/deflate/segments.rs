@@ -22,6 +22,8 @@ const COPLANAR_TURN: f64 = 2e-3;
 const REFITS: usize = 5;
 /// A plane face is this many times wider than the facets of the curved faces that it runs into.
 const WIDER: f64 = 3.0;
+/// Or, if it is a low strip, this many times as deep behind its smooth edges.
+const DEEPER: f64 = 8.0;
 /// So many plane pieces that run into each other are facets of a curved face.
 const CHAIN: usize = 6;
 /// Or so many, if they fold by less than this, in radians.
@@ -228,6 +230,15 @@ struct Regions {
     beside: Vec<Beside>,
 }
 
+/// How large a region is, in mm.
+#[derive(Clone, Copy, Debug)]
+struct Size {
+    /// Area over diameter.
+    width: f64,
+    /// Area over the length of its smooth edges.
+    depth: f64,
+}
+
 /// A region behind the smooth edges of another.
 #[derive(Clone, Copy, Debug)]
 struct Beside {
@@ -293,13 +304,14 @@ impl Regions {
 
     /// Whether each region is a plane face, or else facets of a curved one. O(n).
     fn planes(&self, solid: &Solid) -> Vec<bool> {
-        let widths: Vec<f64> = self.faces.par_iter().map(|faces| width(solid, faces)).collect();
+        let sizes = |(region, faces): (usize, &Vec<u32>)| self.size(solid, region as u32, faces);
+        let sizes: Vec<Size> = self.faces.par_iter().enumerate().map(sizes).collect();
         let whole_stars = self.regions_with_whole_stars(solid);
         let mut is_plane: Vec<bool> = (0..self.faces.len())
             .into_par_iter()
-            .map(|r| self.looks_plane(r as u32, &widths, whole_stars[r]))
+            .map(|r| self.looks_plane(r as u32, &sizes, whole_stars[r]))
             .collect();
-        self.settle_chains(&mut is_plane, &widths);
+        self.settle_chains(&mut is_plane, &sizes);
         self.settle_bends(&mut is_plane);
         self.settle_specks(solid, &mut is_plane);
         is_plane
@@ -327,6 +339,12 @@ impl Regions {
         curved.into_iter().for_each(|r| is_plane[r as usize] = false);
     }
 
+    fn size(&self, solid: &Solid, region: u32, faces: &[u32]) -> Size {
+        let area: f64 = faces.iter().map(|f| solid.areas[*f as usize]).sum();
+        let smooth: f64 = self.beside(region).iter().map(|b| b.length).sum();
+        Size { width: width(solid, faces), depth: area / smooth.max(f64::MIN_POSITIVE) }
+    }
+
     /// Whether some node has nothing but faces of the region about it: in a curved face, every node bends it.
     fn regions_with_whole_stars(&self, solid: &Solid) -> Vec<bool> {
         const MIXED: u32 = u32::MAX - 1;
@@ -346,19 +364,19 @@ impl Regions {
 
     /// A facet of a curved face has, behind its smooth edges, another about as wide that is turned by less than a sharp edge;
     /// slivers may lie between (a thickened mesh has one at every fold). A plane face that runs into a fillet has not.
-    fn looks_plane(&self, region: u32, widths: &[f64], whole_star: bool) -> bool {
+    fn looks_plane(&self, region: u32, sizes: &[Size], whole_star: bool) -> bool {
         let beside = self.beside(region);
         let smooth: f64 = beside.iter().map(|b| b.length).sum();
         if smooth == 0.0 {
             return true;
         }
         let fold = beside.iter().map(|b| b.length * b.fold).sum::<f64>() / smooth;
-        fold > SLIGHT_FOLD && (whole_star || !self.goes_on(region, widths))
+        fold > SLIGHT_FOLD && (whole_star || !self.goes_on(region, sizes))
     }
 
     /// Whether behind most of its smooth edges there are regions about as wide.
-    fn goes_on(&self, region: u32, widths: &[f64]) -> bool {
-        let wide = |b: &&Beside| self.leads_to_a_wide_one(region, b.other, widths);
+    fn goes_on(&self, region: u32, sizes: &[Size]) -> bool {
+        let wide = |b: &&Beside| self.leads_to_a_wide_one(region, b.other, sizes);
         let length = |all: &mut dyn Iterator<Item = &Beside>| all.map(|b| b.length).sum::<f64>();
         let beside = self.beside(region);
         length(&mut beside.iter().filter(wide)) >= 0.5 * length(&mut beside.iter())
@@ -366,10 +384,10 @@ impl Regions {
 
     /// Facets of a curved face that were divided where they lie, as remeshing does, look plane one by one. Many in a row are no
     /// folded plate, nor are those that run into facets that do not look so.
-    fn settle_chains(&self, is_plane: &mut [bool], widths: &[f64]) {
+    fn settle_chains(&self, is_plane: &mut [bool], sizes: &[Size]) {
         let is_link: Vec<bool> = (0..self.faces.len() as u32)
             .into_par_iter()
-            .map(|r| is_plane[r as usize] && !self.beside(r).is_empty() && self.goes_on(r, widths))
+            .map(|r| is_plane[r as usize] && !self.beside(r).is_empty() && self.goes_on(r, sizes))
             .collect();
         let mut seen = vec![false; is_link.len()];
         for first in 0..is_link.len() as u32 {
@@ -379,9 +397,9 @@ impl Regions {
             let (mut chain, mut at, mut runs_on, mut fold) = (vec![first], 0, false, 0.0f64);
             seen[first as usize] = true;
             while at < chain.len() {
-                let width = widths[chain[at] as usize];
+                let width = sizes[chain[at] as usize].width;
                 for b in self.beside(chain[at]) {
-                    let ratio = widths[b.other as usize] / width;
+                    let ratio = sizes[b.other as usize].width / width;
                     runs_on |= !is_plane[b.other as usize] && (1.0 / WIDER..WIDER).contains(&ratio);
                     if is_link[b.other as usize] {
                         fold = fold.max(b.fold);
@@ -401,8 +419,8 @@ impl Regions {
     }
 
     /// Whether over narrow regions, from one behind an edge of `region` on, a wide one is reached that is not much turned.
-    fn leads_to_a_wide_one(&self, region: u32, first: u32, widths: &[f64]) -> bool {
-        let narrow = widths[region as usize] / WIDER;
+    fn leads_to_a_wide_one(&self, region: u32, first: u32, sizes: &[Size]) -> bool {
+        let Size { width, depth } = sizes[region as usize];
         let mut seen = vec![region, first];
         let mut at = 1;
         while at < seen.len() && seen.len() < MOST_BETWEEN {
@@ -411,7 +429,7 @@ impl Regions {
             if self.normals[region as usize].dot(self.normals[r as usize]) < SHARP.cos() {
                 continue;
             }
-            if widths[r as usize] >= narrow {
+            if sizes[r as usize].width >= width / WIDER && sizes[r as usize].depth >= depth / DEEPER {
                 return true;
             }
             for b in self.beside(r) {
