@@ -6,9 +6,9 @@ use rayon::prelude::*;
 
 use super::faces::{Face, Faces};
 use super::report::WallPair;
-use super::segments::{SHARP, Segments};
+use super::segments::Segments;
 use super::shape::Shape;
-use super::solid::Solid;
+use super::solid::{SHARP, Solid};
 use super::walls::Walls;
 
 /// A flare meets the wall that it runs into at less than this, in radians.

@@ -12,8 +12,8 @@ use rayon::prelude::*;
 use super::assemble::{Sheet, Source};
 use super::exact::Exact;
 use super::remesh::{Diagonal, Nodes, Remesh};
-use super::segments::{Segments, longest_side};
-use super::solid::Solid;
+use super::segments::Segments;
+use super::solid::{Solid, longest_side};
 use super::twins::Twins;
 use super::walls::{FACET_LEAN, Opposite, Walls};
 

@@ -20,6 +20,7 @@ mod options;
 mod patches;
 mod plan;
 mod plane;
+mod regions;
 mod remesh;
 mod replace;
 mod report;

@@ -8,8 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::blends::Blends;
 use super::plane::Plane;
-use super::segments::{SHARP, Segments};
-use super::solid::Solid;
+use super::segments::Segments;
+use super::solid::{SHARP, Solid};
 use super::walls::{Pair, Walls};
 
 /// Union–find whose members know on which of two sides they are.

@@ -5,7 +5,6 @@ use mesh_kernel::TriMesh;
 use mesh_kernel::query::{Adjacency, Crossings, RayCaster};
 
 use super::DeflateError;
-use super::segments::SHARP;
 use crate::cleaning::weld;
 
 /// A face whose height is less than this share of its longest side has no normal of its own.
@@ -14,6 +13,8 @@ const FLAT: f64 = 1e-9;
 /// square on the other, have none either: a tessellation is so rough at the poles of round faces, and no wall so thin.
 const LOW: f64 = 1e-4;
 pub(super) const SPECK: f64 = 2e-3;
+/// Edges that fold by more than this, in radians, are sharp: no tessellation of a smooth face is so coarse.
+pub(super) const SHARP: f64 = 40.0 / 180.0 * std::f64::consts::PI;
 
 /// A closed skin with what is asked of its faces again and again.
 #[derive(Debug)]
@@ -240,4 +241,9 @@ fn turned_away(
         }
     }
     away
+}
+
+/// Of a triangle, in mm.
+pub(super) fn longest_side([a, b, c]: &[DVec3; 3]) -> f64 {
+    a.distance(*b).max(b.distance(*c)).max(c.distance(*a))
 }

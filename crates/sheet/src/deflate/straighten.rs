@@ -7,8 +7,8 @@
 use glam::DVec3;
 
 use super::plane::Plane;
+use super::regions::{COPLANAR, fitted_plane, plane_regions};
 use super::replace::on_planes;
-use super::segments::{COPLANAR, fitted_plane, plane_regions};
 use super::solid::Solid;
 
 /// Files that round by more than this share of the solid's size hold shapes that are rough, not rounded.

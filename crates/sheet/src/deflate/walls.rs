@@ -6,8 +6,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::DeflateOptions;
-use super::segments::{SHARP, Segments, width};
-use super::solid::Solid;
+use super::regions::width;
+use super::segments::Segments;
+use super::solid::{SHARP, Solid};
 
 /// Facets of curved walls that lie opposite to each other may be inclined by this much, in radians: both are chords.
 pub(super) const FACET_LEAN: f64 = 35.0 / 180.0 * std::f64::consts::PI;

@@ -16,8 +16,8 @@ use mesh_kernel::query::{Adjacency, ClosestPoint};
 
 use super::assemble::{Sheet, Source, cut};
 use super::seams::Merged;
-use super::segments::{Segments, longest_side};
-use super::solid::Solid;
+use super::segments::Segments;
+use super::solid::{Solid, longest_side};
 use super::walls::Walls;
 use places::{Place, close, join, places, settle, starts};
 use sides::{Facet, Sides, facets, flat_parts, grow};

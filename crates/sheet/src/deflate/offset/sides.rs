@@ -7,9 +7,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::super::seams::Merged;
-use super::super::segments::SHARP;
 use super::super::sides::Parity;
-use super::super::solid::Solid;
+use super::super::solid::{SHARP, Solid};
 use super::super::walls::{Walls, spread};
 
 /// Opposite facets are parallel up to this, in radians.
