@@ -148,6 +148,43 @@ fn slats_between_slots_are_as_thick_as_their_plate() {
     }
 }
 
+/// A plate with slots milled into its edge goes on in as many leaves, one over the other, joined to it at the slots' ends.
+#[test]
+fn a_plate_that_forks_is_joined_to_its_leaves() {
+    for leaves in [2u32, 3] {
+        let (leaf, slot) = (2.2, 1.6);
+        let thick = f64::from(leaves) * leaf + f64::from(leaves - 1) * slot;
+        // In x and y along and across the plate, of which the leaves are the right part.
+        let mut profile = vec![[0.0, 0.0]];
+        for k in 0..leaves {
+            let y = f64::from(k) * (leaf + slot);
+            if k > 0 {
+                let end = 120.0 + 3.0 * f64::from(k);
+                profile.extend([[end, y - slot], [end, y]]);
+            }
+            profile.extend([[170.0, y], [170.0, y + leaf]]);
+        }
+        profile.push([0.0, thick]);
+        let solid = prism(&profile, 90.0, 1);
+        for solid in [&solid, &turned(&solid)] {
+            let thin = deflated(solid);
+            let r = &thin.report;
+            assert_eq!(
+                (r.components, r.self_intersections, r.lost_edges),
+                (1, 0, 0),
+                "{leaves} leaves: {r:?}"
+            );
+            let areas =
+                (0..).zip(&thin.thickness).map(|(f, t)| (thin.sheet.area_normal(f).length() / 2.0, t));
+            let of =
+                |wanted: f64| areas.clone().filter(|a| (a.1 - wanted).abs() < 1e-9).map(|a| a.0).sum::<f64>();
+            near(of(thick), 123.0 * 90.0, 1e-9);
+            assert!(of(leaf) > f64::from(leaves) * 90.0 * 41.0, "{leaves} leaves: {}", of(leaf));
+            near(r.max_thickness, 1.02 * thick, 1e-9);
+        }
+    }
+}
+
 /// The nose of a hook is a lump without a middle; its ends are no walls.
 #[test]
 fn a_snap_hook_is_a_plate_with_a_leaf() {

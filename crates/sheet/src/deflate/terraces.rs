@@ -2,7 +2,8 @@
 //!
 //! Where a plate is stepped on one side only, that side is cut where its middle steps and is kept ([`super::sides`]). Where both sides have
 //! steps, neither knows of the other's: the outlines of both are laid over each other, and every cell between them has the middle of the
-//! two faces that lie over and under it there. Between cells of different middles stand steps.
+//! two faces that lie over and under it there. Between cells of different middles stand steps. A plate that forks, as one with a slot milled
+//! into its edge does, has cells with several middles, one over the other.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -20,11 +21,13 @@ use super::plane::{Plane, PlaneTable};
 use super::seams::Merged;
 use super::segments::Segments;
 use super::sides::Parity;
-use super::solid::Solid;
+use super::solid::{SHARP, Solid};
 use super::walls::Walls;
 
 /// Faces of a plate are parallel to this cosine.
 const PARALLEL: f64 = 1.0 - 1e-9;
+/// The end of a slot stands on its sides to this cosine.
+const UPRIGHT: f64 = 0.3;
 /// Nodes over each other to this share of the solid's size are one.
 const ROUNDING: f64 = 1e-6;
 /// A line across a plate begins this many of the largest thickness before it.
@@ -34,8 +37,10 @@ const FORK: f64 = 0.1;
 /// Plates with more edges than this are left as they are.
 const MOST_EDGES: usize = 10_000;
 
-/// A cell's middle, and the faces over and under it.
-type Cell = (u32, [u32; 2]);
+/// A middle of a cell, and the faces over and under it.
+type Layer = (u32, [u32; 2]);
+/// The middles of a cell, the highest first; none outside.
+type Cell = Vec<Layer>;
 
 /// A node of the overlay.
 #[derive(Clone, Copy, Debug)]
@@ -64,10 +69,10 @@ pub(super) struct Terraces<'a> {
     pub(super) steps: Steps,
 }
 
-/// A plate's kept faces, those opposite to them, and where the kept ones face.
+/// A plate's faces on the side of the first kept one, those opposite to them, and where the former face.
 struct Plate {
-    kept: Vec<u32>,
-    others: Vec<u32>,
+    facing: Vec<u32>,
+    opposite: Vec<u32>,
     normal: DVec3,
 }
 
@@ -93,7 +98,7 @@ impl Terraces<'_> {
         let mut pieces = Vec::new();
         for plate in self.plates(kept) {
             if let Some(made) = self.cut(&plate, moved) {
-                plate.kept.iter().for_each(|g| kept[*g as usize] = false);
+                plate.facing.iter().chain(&plate.opposite).for_each(|g| kept[*g as usize] = false);
                 pieces.extend(made);
             }
         }
@@ -110,22 +115,48 @@ impl Terraces<'_> {
                 sets.relate(pair.group, pair.partner, false);
             }
         }
+        for [a, b] in self.slots(&has_middle) {
+            sets.relate(a, b, false);
+        }
         let mut members: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         for g in (0..n).filter(|g| has_middle(*g)) {
             members.entry(sets.find(g).0).or_default().push(g);
         }
         let plate = |members: Vec<u32>| {
-            let (kept, others): (Vec<u32>, Vec<u32>) = members.into_iter().partition(|g| kept[*g as usize]);
-            if !kept.iter().any(|g| self.middles.of_group[*g as usize].len() > 1) {
+            let mut of_kept = members.iter().filter(|g| kept[**g as usize]);
+            if !of_kept.clone().any(|g| self.middles.of_group[*g as usize].len() > 1) {
                 return None;
             }
-            let normal = self.segments.group(*kept.first()?).plane?.normal;
+            let normal = self.segments.group(*of_kept.next()?).plane?.normal;
             let faces = |g: &u32| self.segments.group(*g).plane.map_or(0.0, |p| p.normal.dot(normal));
-            let is_plate =
-                kept.iter().all(|g| faces(g) > PARALLEL) && others.iter().all(|g| faces(g) < -PARALLEL);
-            is_plate.then_some(Plate { kept, others, normal })
+            let is_plate = members.iter().all(|g| faces(g).abs() > PARALLEL);
+            let (facing, opposite) = members.into_iter().partition(|g| faces(g) > 0.0);
+            is_plate.then_some(Plate { facing, opposite, normal })
         };
         members.into_values().filter_map(plate).collect()
+    }
+
+    /// Pairs of faces that look at each other across a slot: both stand upright in the same hollow on what is no wall, the slot's end.
+    fn slots(&self, has_middle: &dyn Fn(u32) -> bool) -> Vec<[u32; 2]> {
+        let Self { solid, segments, walls, .. } = *self;
+        let mut found = Vec::new();
+        for (group, is_wall) in segments.groups.iter().zip(&walls.is_wall) {
+            let Some(end) = group.plane.filter(|_| !is_wall) else { continue };
+            let sides = group.faces.iter().flat_map(|f| 3 * f..3 * f + 3);
+            let hollow = sides.filter(|h| solid.fold_cosine(*h) < SHARP.cos() && !solid.is_convex(*h));
+            let beside: BTreeSet<u32> = hollow.map(|h| segments.of(solid.across(h))).collect();
+            let wall = |g: &u32| Some((*g, segments.group(*g).plane.filter(|_| has_middle(*g))?));
+            let is_upright = |wall: &(u32, Plane)| wall.1.normal.dot(end.normal).abs() < UPRIGHT;
+            let walls: Vec<(u32, Plane)> = beside.iter().filter_map(wall).filter(is_upright).collect();
+            for (k, (a, plane)) in walls.iter().enumerate() {
+                let faces_it = |(b, other): &&(u32, Plane)| {
+                    let across = solid.centroid(segments.group(*b).faces[0]);
+                    plane.normal.dot(other.normal) < -PARALLEL && plane.height(across) > 0.0
+                };
+                found.extend(walls[k + 1..].iter().filter(faces_it).map(|(b, _)| [*a, *b]));
+            }
+        }
+        found
     }
 
     /// The pieces of a plate; `None` where outlines cannot be laid over each other.
@@ -135,14 +166,15 @@ impl Terraces<'_> {
         let regions = regions(&cdt);
         let mut cells = self.cells(plate, &outlines, &cdt, &regions)?;
         if self.steps == Steps::Aligned {
-            align(&mut cells, &cdt, &regions);
+            align(&mut cells, &cdt, &regions)?;
         }
-        let cell = |face: usize| cells[regions[face]?];
+        let cell = |face: usize| regions[face].map_or(&[][..], |r| &cells[r]);
         // What stands on the plate or is beside it stands where the plate is now: a step below a wall is not in its middle.
         for &(node, place) in &outlines.nodes {
             let Some(vertex) = handles.get(&place) else { continue };
             let faces = cdt.vertex(*vertex).out_edges().map(|edge| edge.face().index());
-            let about: BTreeSet<u32> = faces.filter_map(|face| Some(cell(face)?.0)).collect();
+            let about: BTreeSet<u32> =
+                faces.flat_map(|face| cell(face).iter().map(|layer| layer.0)).collect();
             if about.len() == 1
                 && let Some(number) = about.first()
             {
@@ -156,18 +188,25 @@ impl Terraces<'_> {
         let mut steps = Vec::new();
         for edge in cdt.directed_edges() {
             let (left, right) = (cell(edge.face().index()), cell(edge.rev().face().index()));
-            let Some((number, groups)) = left.filter(|_| left != right) else { continue };
             let ends = [edge.from().fix(), edge.to().fix()];
-            let level = self.level(plate, number);
-            let [a, b] = ends.map(|v| nodes.lifted(v, number, level, moved));
-            let (of, outline) = levels.entry(number).or_default();
-            of.extend(groups);
-            outline.push([a, b]);
-            // A step has a cell on both sides; it is made from the one with the smaller number.
-            if let Some((other, _)) = right.filter(|r| r.0 > number && self.steps != Steps::Apart) {
-                let level = self.level(plate, other);
-                let [c, d] = ends.map(|v| nodes.lifted(v, other, level, moved));
-                steps.push([a, b, d, c]);
+            let mut lifted = |number: u32| {
+                let level = self.level(plate, number);
+                ends.map(|v| nodes.lifted(v, number, level, moved))
+            };
+            for layer in left.iter().filter(|layer| !right.contains(layer)) {
+                let (of, outline) = levels.entry(layer.0).or_default();
+                of.extend(layer.1);
+                outline.push(lifted(layer.0));
+            }
+            // A step has a cell on both sides; it is made from the one whose numbers come first.
+            let numbers = |cell: &[Layer]| cell.iter().map(|layer| layer.0).collect::<Vec<_>>();
+            if numbers(left) < numbers(right) && self.steps != Steps::Apart {
+                let Point2 { x, y } = edge.center();
+                let middle = outlines.lifted(DVec2::new(x, y));
+                for [low, high] in self.steps_at(plate, left, right, middle) {
+                    let ([a, b], [c, d]) = (lifted(low), lifted(high));
+                    steps.push([a, b, d, c]);
+                }
             }
         }
         let levels = levels.into_iter().map(|(number, (groups, outline))| PlanePiece {
@@ -178,6 +217,28 @@ impl Terraces<'_> {
         let mut pieces: Vec<PlanePiece> = levels.collect();
         pieces.extend(self.steps(&steps, &moved.positions));
         Some(pieces)
+    }
+
+    /// Pairs of middles between which steps stand over a point that two different cells share: those of the two; where one forks, all that
+    /// follow on each other within the material.
+    fn steps_at(&self, plate: &Plate, left: &[Layer], right: &[Layer], at: DVec3) -> Vec<[u32; 2]> {
+        match (left, right) {
+            ([], _) | (_, []) => return Vec::new(),
+            ([(a, _)], [(b, _)]) => return vec![[*a, *b]],
+            _ => {}
+        }
+        let height = |plane: Plane| -plane.height(at) / plane.normal.dot(plate.normal);
+        let of_group = |g: u32| self.segments.group(g).plane.map_or(0.0, height);
+        let layers = || left.iter().chain(right);
+        let mut levels: Vec<(f64, u32)> = layers().map(|l| (height(self.level(plate, l.0)), l.0)).collect();
+        levels.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        levels.dedup_by_key(|l| l.1);
+        let filled = |low: f64, high: f64| {
+            let mut ranges = layers().map(|(_, [over, under])| [of_group(*under), of_group(*over)]);
+            ranges.any(|[bottom, top]| bottom <= low && high <= top)
+        };
+        let pairs = levels.windows(2).filter(|w| filled(w[0].0, w[1].0));
+        pairs.map(|w| [w[0].1, w[1].1]).collect()
     }
 
     /// The middle of a number, facing as the kept side.
@@ -207,7 +268,7 @@ impl Terraces<'_> {
     /// Borders of all faces of a plate, from where its nodes moved to.
     fn outlines(&self, plate: &Plate, moved: &Moved) -> Outlines {
         let (x, y) = plate.normal.any_orthonormal_pair();
-        let sides = plate.kept.iter().chain(&plate.others);
+        let sides = plate.facing.iter().chain(&plate.opposite);
         let edges: Vec<(u32, [u32; 2])> =
             sides.flat_map(|g| border(self.solid, self.segments, self.gone, *g).map(|e| (*g, e))).collect();
         let mut nodes: Vec<u32> = edges.iter().flat_map(|e| e.1).collect();
@@ -246,14 +307,14 @@ impl Terraces<'_> {
         hit.is_some()
     }
 
-    /// What lies over and under every region; `None` where one lies between more than two faces: a plate that forks.
+    /// What lies over and under every region; `None` where faces lie over each other that do not belong together.
     fn cells(
         &self,
         plate: &Plate,
         outlines: &Outlines,
         cdt: &Cdt,
         regions: &[Option<usize>],
-    ) -> Option<Vec<Option<Cell>>> {
+    ) -> Option<Vec<Cell>> {
         let count = regions.iter().flatten().max().map_or(0, |r| r + 1);
         // A point in the largest triangle of each.
         let mut largest = vec![(0.0f64, DVec2::ZERO); count];
@@ -269,13 +330,14 @@ impl Terraces<'_> {
         let over: Vec<BTreeSet<u32>> = largest.par_iter().map(|(_, p)| outlines.about(*p)).collect();
         let wide = FORK * self.walls.max_thickness;
         let is_forked = |side: &[u32], r: usize| side.iter().filter(|g| over[r].contains(g)).count() > 1;
-        let forked = (0..count).filter(|r| is_forked(&plate.kept, *r) || is_forked(&plate.others, *r));
-        if forked.map(|r| width(cdt, regions, r)).any(|width| width > wide) {
-            return None;
+        let forked = (0..count).filter(|r| is_forked(&plate.facing, *r) || is_forked(&plate.opposite, *r));
+        let mut forks: BTreeMap<usize, Cell> = BTreeMap::new();
+        for r in forked.filter(|r| width(cdt, regions, *r) > wide) {
+            forks.insert(r, self.layers(plate, &over[r], outlines.lifted(largest[r].1))?);
         }
         let of = |side: &[u32], r: usize| side.iter().copied().find(|g| over[r].contains(g));
         let mut sides: Vec<[Option<u32>; 2]> =
-            (0..count).map(|r| [of(&plate.kept, r), of(&plate.others, r)]).collect();
+            (0..count).map(|r| [of(&plate.facing, r), of(&plate.opposite, r)]).collect();
         // How long the borders of regions with each other are.
         let mut shared: BTreeMap<[usize; 2], f64> = BTreeMap::new();
         let mut is_outer = vec![false; count];
@@ -308,7 +370,10 @@ impl Terraces<'_> {
             Some((self.middles.between(pair[0], pair[1])?.1, pair))
         };
         let known = sides.iter().zip(&is_sliver).map(|(s, is_sliver)| number(*s).filter(|_| !is_sliver));
-        let mut cells: Vec<Option<Cell>> = known.collect();
+        let mut cells: Vec<Option<Layer>> = known.collect();
+        for (r, layers) in &forks {
+            cells[*r] = layers.first().copied();
+        }
         // Where only one side is known, as below a rib, it is as beside that.
         let mut by_length: Vec<([usize; 2], f64)> = shared.into_iter().collect();
         by_length.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
@@ -331,7 +396,26 @@ impl Terraces<'_> {
             }
         }
         cells.iter_mut().zip(is_out).filter(|(_, is_out)| *is_out).for_each(|(cell, _)| *cell = None);
+        let mut cells: Vec<Cell> = cells.into_iter().map(Vec::from_iter).collect();
+        forks.into_iter().for_each(|(r, layers)| cells[r] = layers);
         Some(cells)
+    }
+
+    /// The layers of a plate over a point where it forks, from the highest to the lowest; `None` unless its faces there face up and down in
+    /// turn.
+    fn layers(&self, plate: &Plate, over: &BTreeSet<u32>, at: DVec3) -> Option<Cell> {
+        let height = |g: &u32| {
+            let plane = self.segments.group(*g).plane?;
+            Some((-plane.height(at) / plane.normal.dot(plate.normal), *g))
+        };
+        let mut faces: Vec<(f64, u32)> = over.iter().map(height).collect::<Option<_>>()?;
+        faces.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        let layer = |pair: &[(f64, u32)]| {
+            let [(_, over), (_, under)] = *pair else { return None };
+            let belong = plate.facing.contains(&over) && plate.opposite.contains(&under);
+            Some((self.middles.between(over, under).filter(|_| belong)?.1, [over, under]))
+        };
+        faces.chunks(2).map(layer).collect()
     }
 }
 
@@ -433,17 +517,21 @@ fn width(cdt: &Cdt, regions: &[Option<usize>], r: usize) -> f64 {
     2.0 * area / outline.map(|e| e.length_2().sqrt()).sum::<f64>().max(f64::MIN_POSITIVE)
 }
 
-/// Gives all cells the middle that most of the plate has.
-fn align(cells: &mut [Option<Cell>], cdt: &Cdt, regions: &[Option<usize>]) {
+/// Gives all cells the middle that most of the plate has; `None` if it forks.
+fn align(cells: &mut [Cell], cdt: &Cdt, regions: &[Option<usize>]) -> Option<()> {
+    if cells.iter().any(|cell| cell.len() > 1) {
+        return None;
+    }
     let mut areas: BTreeMap<u32, f64> = BTreeMap::new();
     for face in cdt.inner_faces() {
-        if let Some((number, _)) = regions[face.index()].and_then(|r| cells[r]) {
-            *areas.entry(number).or_default() += face.area();
+        if let Some((number, _)) = regions[face.index()].and_then(|r| cells[r].first()) {
+            *areas.entry(*number).or_default() += face.area();
         }
     }
     if let Some((most, _)) = areas.into_iter().max_by(|a, b| a.1.total_cmp(&b.1)) {
-        cells.iter_mut().flatten().for_each(|cell| cell.0 = most);
+        cells.iter_mut().flatten().for_each(|layer| layer.0 = most);
     }
+    Some(())
 }
 
 /// The region of every face: what no outline divides. `None` outside.

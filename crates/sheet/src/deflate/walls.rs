@@ -154,7 +154,7 @@ impl Walls {
         let mut looks: Vec<Look> = walls.casts.par_iter().map(look).collect();
         walls.max_thickness = options.max_thickness.unwrap_or_else(|| {
             let told = told_thickness(&broad(solid, segments, &looks), total);
-            thick_plates(solid, segments, &looks, total).fold(told, f64::max)
+            thick_plates(solid, segments, &looks, total).into_iter().fold(told, f64::max)
         });
         for look in &mut looks {
             look.seen = look.seen.filter(|(_, s)| *s <= walls.max_thickness);
@@ -378,38 +378,36 @@ fn told_thickness(seen: &[(f64, f64)], area: f64) -> f64 {
 }
 
 /// How thick walls are that are much broader than thick, evenly so, and not just a trifle of the skin, whatever the rest is: the base
-/// below thin fins, the thick end of a tube.
-fn thick_plates<'a>(
-    solid: &'a Solid,
-    segments: &'a Segments,
-    looks: &[Look],
-    area: f64,
-) -> impl Iterator<Item = f64> + 'a {
-    let mut seen: Vec<(u32, f64, f64)> = looks
+/// below thin fins, the thick end of a tube, a plate that forks.
+fn thick_plates(solid: &Solid, segments: &Segments, looks: &[Look], area: f64) -> Vec<f64> {
+    let mut seen: Vec<(u32, u32, f64, f64)> = looks
         .iter()
         .filter_map(|l| {
             let (partner, thickness) = l.seen?;
-            (l.group != partner).then_some((l.group, thickness, l.area))
+            (l.group != partner).then_some((l.group, partner, thickness, l.area))
         })
         .collect();
-    seen.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    let plate = |run: &[(u32, f64, f64)]| {
-        let all: f64 = run.iter().map(|r| r.2).sum();
+    seen.sort_by(|a, b| (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2)));
+    // Most of a group, or what two have of each other.
+    let plate = |run: &[(u32, u32, f64, f64)], of: f64| {
+        let all: f64 = run.iter().map(|r| r.3).sum();
         let mut sum = 0.0;
         let middle = run.iter().find(|r| {
-            sum += r.2;
+            sum += r.3;
             sum >= all / 2.0
         })?;
-        let alike = run.iter().filter(|r| (r.1 - middle.1).abs() < PLATE_ALIKE * middle.1);
-        (alike.map(|r| r.2).sum::<f64>() >= 0.5 * segments.group(run[0].0).area)
-            .then_some((run[0].0, middle.1))
+        let alike = run.iter().filter(|r| (r.2 - middle.2).abs() < PLATE_ALIKE * middle.2);
+        let broad = FLAT * of.sqrt().min(width(solid, &segments.group(run[0].0).faces));
+        let is_plate = of >= PLATE * area && middle.2 < broad && alike.map(|r| r.3).sum::<f64>() >= 0.5 * of;
+        is_plate.then_some(1.02 * middle.2)
     };
-    let plates: Vec<(u32, f64)> = seen.chunk_by(|a, b| a.0 == b.0).filter_map(plate).collect();
-    plates.into_iter().filter_map(move |(g, thickness)| {
-        let group = segments.group(g);
-        let is_large = group.area >= PLATE * area;
-        (is_large && thickness < FLAT * width(solid, &group.faces)).then_some(1.02 * thickness)
-    })
+    let area_of = |run: &[(u32, u32, f64, f64)]| run.iter().map(|r| r.3).sum::<f64>();
+    let of_pairs = seen.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).filter_map(|run| plate(run, area_of(run)));
+    let mut plates: Vec<f64> = of_pairs.collect();
+    seen.sort_by(|a, b| a.0.cmp(&b.0).then(a.2.total_cmp(&b.2)));
+    let of_groups = seen.chunk_by(|a, b| a.0 == b.0);
+    plates.extend(of_groups.filter_map(|run| plate(run, segments.group(run[0].0).area)));
+    plates
 }
 
 /// The pairs that begin with a group, of pairs that are ordered by it.
