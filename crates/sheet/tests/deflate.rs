@@ -127,7 +127,7 @@ fn a_thick_base_below_thin_fins_is_a_wall() {
 /// Slats that are wider than thick: their sides lie opposite to each other as well, and are ends nevertheless.
 #[test]
 fn slats_between_slots_are_as_thick_as_their_plate() {
-    for (slat, slot) in [(4.0, 4.0), (5.5, 3.0), (2.9, 2.9)] {
+    for (slat, slot) in [(4.0, 4.0), (5.5, 3.0), (2.9, 2.9), (2.5, 4.0)] {
         let mut comb = vec![[0.0, 0.0], [8.0 * slat + 7.0 * slot, 0.0]];
         for k in (0..8).map(f64::from).rev() {
             let right = k * (slat + slot) + slat;
@@ -145,6 +145,22 @@ fn slats_between_slots_are_as_thick_as_their_plate() {
             near(thin.report.thickness.max, 2.5, 1e-9);
             near(thin.report.max_thickness, 2.55, 1e-9);
         }
+    }
+}
+
+/// A plate with many slots nearer to each other than it is thick: their sides see each other, and all of its outline is about thin webs.
+#[test]
+fn a_plate_full_of_slots_is_a_plate() {
+    for web in [1.6, 2.0, 2.4] {
+        let mut comb = vec![[0.0, 0.0], [150.0, 0.0], [150.0, 60.0]];
+        for k in (0..20).map(f64::from).rev() {
+            let left = 5.0 + k * (web + 3.0);
+            comb.extend([[left + 3.0, 60.0], [left + 3.0, 30.0], [left, 30.0], [left, 60.0]]);
+        }
+        comb.push([0.0, 60.0]);
+        let thin = deflated(&prism(&comb, 2.5, 1));
+        has_topology(&thin, [1, 0, 1, 1]);
+        near(thin.report.area, 150.0 * 60.0 - 20.0 * 3.0 * 30.0, 0.02);
     }
 }
 

@@ -160,11 +160,13 @@ fn steps(
         }
         // Round ends that run into it have nodes that stay where they are, and so have lumps at the ends of walls.
         let is_round = |o: &u32| segments.group(*o).plane.is_none() && !walls.is_wall[*o as usize];
-        let may_be_end = beside.iter().any(is_round) || !has_levels(segments, middles, &beside, kept);
-        let is_end = may_be_end && is_end(walls, &beside, kept);
+        // The steps of plates that step on both sides are made already; the end of other walls may be one of them.
         let is_terraced = beside.iter().any(|o| terraced.contains(o));
+        let may_be_end =
+            is_terraced || beside.iter().any(is_round) || !has_levels(segments, middles, &beside, kept);
+        let is_end = may_be_end && is_end(walls, &beside, kept);
         beside.retain(|o| kept[*o as usize]);
-        if beside.len() < 2 || is_end || is_terraced {
+        if beside.len() < 2 || is_end {
             continue;
         }
         // Twice the area that is left, and its outline.
@@ -194,7 +196,9 @@ fn has_levels(segments: &Segments, middles: &Middles, beside: &BTreeSet<u32>, ke
     let walls: Vec<_> = beside.iter().filter(|g| kept[**g as usize]).map(of).collect();
     let differ = |a: &Option<(Plane, Plane)>, b: &Option<(Plane, Plane)>| match (a, b) {
         (Some((own, middle)), Some((other, other_middle))) => {
-            own.normal.cross(other.normal).length() < PARALLEL_LEVELS && middle != other_middle
+            own.normal.cross(other.normal).length() < PARALLEL_LEVELS
+                && middle != other_middle
+                && *middle != other_middle.flipped()
         }
         _ => true,
     };

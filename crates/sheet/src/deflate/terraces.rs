@@ -76,7 +76,7 @@ struct Plate {
     normal: DVec3,
 }
 
-/// The outlines of a plate's faces, seen from the kept side.
+/// The outlines of a plate's faces, seen from the side of the first kept one.
 struct Outlines {
     frame: [DVec3; 2],
     origin: DVec3,
@@ -139,6 +139,7 @@ impl Terraces<'_> {
     /// Pairs of faces that look at each other across a slot: both stand upright in the same hollow on what is no wall, the slot's end.
     fn slots(&self, has_middle: &dyn Fn(u32) -> bool) -> Vec<[u32; 2]> {
         let Self { solid, segments, walls, .. } = *self;
+        let within = 0.0..walls.max_thickness;
         let mut found = Vec::new();
         for (group, is_wall) in segments.groups.iter().zip(&walls.is_wall) {
             let Some(end) = group.plane.filter(|_| !is_wall) else { continue };
@@ -151,7 +152,7 @@ impl Terraces<'_> {
             for (k, (a, plane)) in walls.iter().enumerate() {
                 let faces_it = |(b, other): &&(u32, Plane)| {
                     let across = solid.centroid(segments.group(*b).faces[0]);
-                    plane.normal.dot(other.normal) < -PARALLEL && plane.height(across) > 0.0
+                    plane.normal.dot(other.normal) < -PARALLEL && within.contains(&plane.height(across))
                 };
                 found.extend(walls[k + 1..].iter().filter(faces_it).map(|(b, _)| [*a, *b]));
             }
@@ -241,7 +242,7 @@ impl Terraces<'_> {
         pairs.map(|w| [w[0].1, w[1].1]).collect()
     }
 
-    /// The middle of a number, facing as the kept side.
+    /// The middle of a number, facing as the first kept face.
     fn level(&self, plate: &Plate, number: u32) -> Plane {
         let plane = self.middles.mid_planes.plane(number);
         if plane.normal.dot(plate.normal) > 0.0 { plane } else { plane.flipped() }
@@ -307,7 +308,19 @@ impl Terraces<'_> {
         hit.is_some()
     }
 
-    /// What lies over and under every region; `None` where faces lie over each other that do not belong together.
+    /// Whether a face of a plate goes on in a wall that is none of it, smoothly or around a corner: leaves would have to be cut to other lengths
+    /// than the plate there.
+    fn runs_on(&self, plate: &Plate, g: u32) -> bool {
+        let Self { solid, segments, walls, .. } = *self;
+        let is_other =
+            |o: u32| walls.is_wall[o as usize] && !plate.facing.contains(&o) && !plate.opposite.contains(&o);
+        let is_hollow = |h: u32| solid.fold_cosine(h) < SHARP.cos() && !solid.is_convex(h);
+        let mut sides = segments.group(g).faces.iter().flat_map(|f| 3 * f..3 * f + 3);
+        sides.any(|h| is_other(segments.of(solid.across(h))) && !is_hollow(h))
+    }
+
+    /// What lies over and under every region; `None` where faces lie over each other that do not belong together, and where a plate forks that
+    /// runs on in another wall.
     fn cells(
         &self,
         plate: &Plate,
@@ -332,8 +345,14 @@ impl Terraces<'_> {
         let is_forked = |side: &[u32], r: usize| side.iter().filter(|g| over[r].contains(g)).count() > 1;
         let forked = (0..count).filter(|r| is_forked(&plate.facing, *r) || is_forked(&plate.opposite, *r));
         let mut forks: BTreeMap<usize, Cell> = BTreeMap::new();
-        for r in forked.filter(|r| width(cdt, regions, *r) > wide) {
-            forks.insert(r, self.layers(plate, &over[r], outlines.lifted(largest[r].1))?);
+        for r in forked.filter(|r| largest[*r].0 > 0.0) {
+            let runs_on = || over[r].iter().any(|g| self.runs_on(plate, *g));
+            match self.layers(plate, &over[r], outlines.lifted(largest[r].1)) {
+                Some(layers) if !runs_on() => _ = forks.insert(r, layers),
+                // Chords may lie over each other by a little.
+                _ if width(cdt, regions, r) > wide => return None,
+                _ => {}
+            }
         }
         let of = |side: &[u32], r: usize| side.iter().copied().find(|g| over[r].contains(g));
         let mut sides: Vec<[Option<u32>; 2]> =

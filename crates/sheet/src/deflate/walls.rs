@@ -40,6 +40,11 @@ const NARROW: f64 = 0.5;
 /// The end of a wall that is thinner than this share of what the end itself would be as a wall: more than this share of its outline
 /// is on both sides of that wall.
 const THINNER: f64 = 0.9;
+/// Or than this many times that, if its faces are so many times larger than the end: of a bar, those sides that go on in a plate are the wall.
+const GOES_ON_AS: f64 = 2.0;
+const LARGER: f64 = 3.0;
+/// An end is no wider than this many times the thickness of the wall.
+const AS_WIDE: f64 = 1.2;
 const MOST_OF: f64 = 0.6;
 /// Neighbours are as thick if they are by this share.
 const ALIKE: f64 = 0.1;
@@ -294,22 +299,30 @@ fn ends_of_thinner_walls(
         }
         (outline, about)
     };
+    let surroundings: Vec<(f64, BTreeMap<u32, f64>)> =
+        (0..thick.len() as u32).into_par_iter().map(about).collect();
     let is_end = |(g, own): (u32, f64)| {
-        let (outline, mut beside) = about(g);
-        let thinner = |p: &Pair, beside: &BTreeMap<u32, f64>| {
-            p.thickness < THINNER * own && beside.contains_key(&p.partner)
+        let (outline, beside) = &surroundings[g as usize];
+        let area = segments.group(g).area;
+        // How thick the wall is that ends here at what is beside, with its other side among `others`.
+        let ending = |o: u32, others: &dyn Fn(u32) -> bool| {
+            let is_larger = segments.group(o).area > LARGER * area;
+            let thinner = if is_larger { GOES_ON_AS } else { THINNER } * own;
+            let found = partners_in(pairs, o).iter().find(|p| p.thickness < thinner && others(p.partner));
+            found.map(|p| p.thickness)
         };
-        let ends_here =
-            |o: u32, beside: &BTreeMap<u32, f64>| partners_in(pairs, o).iter().any(|p| thinner(p, beside));
-        let most = |beside: &BTreeMap<u32, f64>| {
-            let ending = beside.iter().filter(|(o, _)| ends_here(**o, beside));
-            ending.map(|(_, length)| length).sum::<f64>() > MOST_OF * outline
+        let ends = |counts: &dyn Fn(u32) -> bool| {
+            let ending = beside.iter().filter(|(o, _)| counts(**o)).filter_map(|(o, length)| {
+                Some((*length, ending(*o, &|other| counts(other) && beside.contains_key(&other))?))
+            });
+            // Both sides of the wall are counted. An end is as wide as the wall is thick; what has many holes is not.
+            let (along, reach) =
+                ending.fold((0.0, 0.0), |(l, r), (length, thick)| (l + length, r + length * thick / 2.0));
+            along > MOST_OF * outline && area < AS_WIDE * reach
         };
-        most(&beside) && {
+        ends(&|_| true) && {
             let main = partners_in(pairs, g).iter().max_by(|p, q| p.area.total_cmp(&q.area));
-            let opposite = main.map_or_else(BTreeMap::new, |p| about(p.partner).1);
-            beside.retain(|o, _| opposite.contains_key(o));
-            most(&beside)
+            main.is_some_and(|p| ends(&|o| surroundings[p.partner as usize].1.contains_key(&o)))
         }
     };
     let walled = (0..).zip(thick).filter_map(|(g, t)| Some((g, (*t)?)));
@@ -388,8 +401,9 @@ fn thick_plates(solid: &Solid, segments: &Segments, looks: &[Look], area: f64) -
         })
         .collect();
     seen.sort_by(|a, b| (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2)));
-    // Most of a group, or what two have of each other.
-    let plate = |run: &[(u32, u32, f64, f64)], of: f64| {
+    let wide = |g: u32| width(solid, &segments.group(g).faces);
+    // Most of a group, or what two have of each other; `of` is its area, `broad` how wide it is.
+    let plate = |run: &[(u32, u32, f64, f64)], of: f64, broad: &dyn Fn() -> f64| {
         let all: f64 = run.iter().map(|r| r.3).sum();
         let mut sum = 0.0;
         let middle = run.iter().find(|r| {
@@ -397,16 +411,19 @@ fn thick_plates(solid: &Solid, segments: &Segments, looks: &[Look], area: f64) -
             sum >= all / 2.0
         })?;
         let alike = run.iter().filter(|r| (r.2 - middle.2).abs() < PLATE_ALIKE * middle.2);
-        let broad = FLAT * of.sqrt().min(width(solid, &segments.group(run[0].0).faces));
-        let is_plate = of >= PLATE * area && middle.2 < broad && alike.map(|r| r.3).sum::<f64>() >= 0.5 * of;
+        let is_plate = of >= PLATE * area
+            && middle.2 < FLAT * of.sqrt().min(broad())
+            && alike.map(|r| r.3).sum::<f64>() >= 0.5 * of;
         is_plate.then_some(1.02 * middle.2)
     };
     let area_of = |run: &[(u32, u32, f64, f64)]| run.iter().map(|r| r.3).sum::<f64>();
-    let of_pairs = seen.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).filter_map(|run| plate(run, area_of(run)));
+    let of_pairs = seen
+        .chunk_by(|a, b| (a.0, a.1) == (b.0, b.1))
+        .filter_map(|run| plate(run, area_of(run), &|| wide(run[0].0).min(wide(run[0].1))));
     let mut plates: Vec<f64> = of_pairs.collect();
     seen.sort_by(|a, b| a.0.cmp(&b.0).then(a.2.total_cmp(&b.2)));
     let of_groups = seen.chunk_by(|a, b| a.0 == b.0);
-    plates.extend(of_groups.filter_map(|run| plate(run, segments.group(run[0].0).area)));
+    plates.extend(of_groups.filter_map(|run| plate(run, segments.group(run[0].0).area, &|| wide(run[0].0))));
     plates
 }
 
