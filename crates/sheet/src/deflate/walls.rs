@@ -37,15 +37,15 @@ const HAIR: f64 = 0.03;
 const TRIFLE: f64 = 0.3;
 /// A strip that is narrower than this share of its thickness is no wall.
 const NARROW: f64 = 0.5;
-/// The end of a wall that is thinner than this share of what the end itself would be as a wall: more than this share of its outline
-/// is on both sides of that wall.
+/// What is thinner than this share of what its end would be as a wall ends there.
 const THINNER: f64 = 0.9;
-/// Or than this many times that, if its faces are so many times larger than the end: of a bar, those sides that go on in a plate are the wall.
+/// Or than so many times that, if its faces are so many times larger than the end: of a bar, those sides that go on in a plate are the wall.
 const GOES_ON_AS: f64 = 2.0;
 const LARGER: f64 = 3.0;
-/// An end is no wider than this many times the thickness of the wall.
-const AS_WIDE: f64 = 1.2;
+/// More than this share of an end's outline is on both sides of the wall that ends.
 const MOST_OF: f64 = 0.6;
+/// An end is no wider than this many times the thickness of that wall.
+const AS_WIDE: f64 = 1.2;
 /// Neighbours are as thick if they are by this share.
 const ALIKE: f64 = 0.1;
 /// Rays begin this far inside, over the solid's size.
