@@ -5,7 +5,7 @@ mod deflate_support;
 mod solid_models;
 
 use deflate_support::{deflated, has_topology, near};
-use mesh_kernel::glam::DVec3;
+use mesh_kernel::glam::{DVec2, DVec3};
 use mesh_kernel::query::{Adjacency, ClosestPoint, Crossings};
 use mesh_kernel::{Group, TriMesh};
 use sheet::deflate::{DeflateError, DeflateOptions, Deflated, Nobody, Shape, Step, Steps, Watcher, deflate};
@@ -335,7 +335,12 @@ fn bell(n: i32) -> Vec<[f64; 2]> {
 fn round_faces_are_named_however_they_are_meshed() {
     for (n, around) in [(4, 20), (9, 64)] {
         let solid = turned(&revolved(&bell(n), around, false));
-        let thin = deflated(&solid);
+        round_faces_are_named(&solid);
+        round_faces_are_named(&divided(&divided(&solid)));
+    }
+
+    fn round_faces_are_named(solid: &TriMesh) {
+        let thin = deflated(solid);
         let mut kinds: Vec<&str> = thin.report.faces.iter().map(|f| f.shape.name()).collect();
         kinds.sort_unstable();
         let cylinders = ["cylinder"; 3];
@@ -525,6 +530,28 @@ fn what_is_no_thin_solid_is_refused_and_says_why() {
     let bad = DeflateOptions { edge_length: Some(0.0), ..DeflateOptions::default() };
     let error = deflate(&cube, &bad, &Nobody).unwrap_err();
     assert!(matches!(error, DeflateError::OptionRange { option: "edge_length", .. }));
+}
+
+#[test]
+fn a_wall_with_one_side_is_refused_as_such() {
+    // A band of 20 × 2 that makes half a turn on its way around.
+    let section = [[-10., -1.], [10., -1.], [10., 1.], [-10., 1.]];
+    let steps = 120u32;
+    let corner = |k: u32, c: usize| {
+        let angle = std::f64::consts::TAU * f64::from(k) / f64::from(steps);
+        let [across, up] = DVec2::from(section[c]).rotate(DVec2::from_angle(angle / 2.0)).to_array();
+        DVec3::new((40.0 + across) * angle.cos(), (40.0 + across) * angle.sin(), up)
+    };
+    let positions = (0..steps).flat_map(|k| (0..4).map(move |c| corner(k, c))).collect();
+    // Having come around, every corner is at the one that was opposite to it.
+    let node = |k: u32, c: u32| if k < steps { 4 * k + c } else { (c + 2) % 4 };
+    let quads = (0..steps).flat_map(|k| (0..4).map(move |c| (k, c, (c + 1) % 4)));
+    let quad = |(k, c, d)| [node(k, c), node(k, d), node(k + 1, d), node(k + 1, c)];
+    let faces = quads.map(quad).flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+    let error = deflate(&TriMesh::new(positions, faces), &DeflateOptions::default(), &Nobody).unwrap_err();
+    // Both sides of the wall are one.
+    let DeflateError::OneSided { area, .. } = error else { panic!("{error}") };
+    near(area, 2.0 * 20.0 * 40.0 * std::f64::consts::TAU, 0.05);
 }
 
 #[test]

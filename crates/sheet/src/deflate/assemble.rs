@@ -7,6 +7,7 @@ use glam::DVec3;
 
 use super::DeflateOptions;
 use super::fill::{Outline, fill};
+use super::looks::mean_thickness;
 use super::middle::Middles;
 use super::nearness::Nearness;
 use super::plan::{Plan, border, plan};
@@ -16,7 +17,7 @@ use super::segments::Segments;
 use super::slivers::{cancel_doubles, contract};
 use super::solid::Solid;
 use super::terraces::Terraces;
-use super::walls::{Walls, mean_thickness};
+use super::walls::Walls;
 
 /// Edges of curved pieces shorter than this share of the wall's thickness close when they got that short by moving.
 const CLOSED: f64 = 0.02;
@@ -91,7 +92,7 @@ pub(super) fn assemble(
     for (k, g) in (first_curved..).zip(&plan.curved) {
         borders.extend(border(solid, segments, gone, *g).map(|e| (e, k)));
     }
-    let mut seams = Seams::new(moved.clone(), merged, &borders, soft, near);
+    let mut seams = Seams::new(moved.clone(), merged, &borders, first_curved, soft, near);
     let length_of = |k: u32| {
         let own = plan.planes.get(k as usize).and_then(|piece| piece.edge_length);
         own.into_iter().chain(options.edge_length).fold(f64::INFINITY, f64::min)

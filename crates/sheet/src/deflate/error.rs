@@ -68,6 +68,15 @@ pub enum DeflateError {
         /// Faces without a partner, the largest first.
         unpaired: Vec<UnpairedFace>,
     },
+    /// A wall has one side only, so nothing tells which of its faces to keep.
+    #[error("a wall of {area:.1} mm² has one side only: from ({:.3}, {:.3}, {:.3}) its skin runs smoothly to its own back, as \
+        that of a Möbius strip does; cut the solid in two there", at.x, at.y, at.z)]
+    OneSided {
+        /// The area of its skin, in mm².
+        area: f64,
+        /// A point on it.
+        at: DVec3,
+    },
     /// The caller ended it.
     #[error("cancelled")]
     Cancelled,

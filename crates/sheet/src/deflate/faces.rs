@@ -1,13 +1,14 @@
 //! Faces of a skin with their geometry: what a modeller would have called a face, told from triangles (Sheen et al. 2008,
 //! sections 6.1 and 9.4).
 //!
-//! A smooth group may be many faces that run into each other: a cylinder, a sphere in the corner, another cylinder. From some facet
+//! A smooth group may be many faces that run into each other: a cylinder, a sphere in the corner, another cylinder. From some flat
 //! shapes are fitted to its surroundings, grown as far as nodes lie on them, and the one that reaches farthest is a face.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
 use super::fit::Cloud;
+use super::flats::Flats;
 use super::segments::Segments;
 use super::shape::Shape;
 use super::solid::Solid;
@@ -17,11 +18,11 @@ const ROUNDING: f64 = 3e-6;
 /// Or, where there are many, within this share of what the facets bulge by.
 const BULGE: f64 = 1e-3;
 const MANY: usize = 30;
-/// Facets fitted at first: as many as will do, or fewer where faces are narrow.
+/// Flats fitted at first: as many as will do, or fewer where faces are narrow.
 const SURROUNDINGS: [usize; 3] = [40, 16, 7];
-/// Shapes are compared when they have grown to so many facets.
+/// Shapes are compared when they have grown to so many flats.
 const COMPARED: usize = 600;
-/// After so many facets in a row about which no shape fits, or none that covers this share of its group, the rest is freeform.
+/// After so many flats in a row about which no shape fits, or none that covers this share of its group, the rest is freeform.
 const FAILURES: usize = 300;
 const SMALL: f64 = 2e-3;
 /// Passes over a group, at most.
@@ -33,7 +34,7 @@ const PIECE: f64 = 1e-2;
 const LEAST: f64 = 0.5;
 /// Nodes that a shape is fitted to, at most.
 const FITTED: usize = 240;
-/// A facet leans by no more than this, in radians, from the shape at its middle.
+/// A flat leans by no more than this, in radians, from the shape at its middle.
 const LEAN: f64 = 35.0 / 180.0 * std::f64::consts::PI;
 /// A less simple shape has to cover this many times more.
 const SIMPLER: f64 = 1.02;
@@ -63,12 +64,7 @@ pub(super) struct Faces {
 impl Faces {
     /// Finds the faces of all groups. O(n log n) where faces are large beside their facets.
     pub(super) fn new(solid: &Solid, segments: &Segments) -> Self {
-        let mut places = vec![0; solid.len() as usize];
-        for group in &segments.groups {
-            for (place, f) in (0..).zip(&group.faces) {
-                places[*f as usize] = place;
-            }
-        }
+        let flats = Flats::new(solid, segments);
         let mut list: Vec<Face> = (0..segments.groups.len() as u32)
             .into_par_iter()
             .flat_map_iter(|g| match segments.group(g).plane {
@@ -76,7 +72,7 @@ impl Faces {
                     let shape = Shape::Plane { normal: plane.normal, offset: plane.offset };
                     vec![face(solid, shape, segments.group(g).faces.clone())]
                 }
-                None => Growth::new(solid, segments, g, &places).faces(),
+                None => Growth::new(solid, segments, &flats, g).faces(),
             })
             .collect();
         list.sort_by_key(|f| f.triangles[0]);
@@ -102,10 +98,9 @@ fn face(solid: &Solid, shape: Shape, mut triangles: Vec<u32>) -> Face {
 struct Growth<'a> {
     solid: &'a Solid,
     segments: &'a Segments,
+    flats: &'a Flats,
     group: u32,
-    /// Of every triangle its place in its group.
-    places: &'a [u32],
-    /// Facets by their place: whether they have a face.
+    /// Flats of the group in their order: whether they have a face.
     taken: Vec<bool>,
     /// And the last walk that came by.
     seen: Vec<u32>,
@@ -113,35 +108,38 @@ struct Growth<'a> {
 }
 
 impl<'a> Growth<'a> {
-    fn new(solid: &'a Solid, segments: &'a Segments, group: u32, places: &'a [u32]) -> Self {
-        let n = segments.group(group).faces.len();
-        Self { solid, segments, group, places, taken: vec![false; n], seen: vec![0; n], walk: 0 }
+    fn new(solid: &'a Solid, segments: &'a Segments, flats: &'a Flats, group: u32) -> Self {
+        let n = flats.of_group(group).len();
+        Self { solid, segments, flats, group, taken: vec![false; n], seen: vec![0; n], walk: 0 }
     }
 
-    fn place(&self, f: u32) -> usize {
-        self.places[f as usize] as usize
+    /// The place of a flat in its group.
+    fn place(&self, flat: u32) -> usize {
+        (flat - self.flats.of_group(self.group).start) as usize
     }
 
-    fn is_free(&self, f: u32) -> bool {
-        self.segments.of(f) == self.group && !self.taken[self.place(f)]
+    fn is_free(&self, flat: u32) -> bool {
+        self.flats.of_group(self.group).contains(&flat) && !self.taken[self.place(flat)]
     }
 
-    fn take(&mut self, shape: Shape, facets: Vec<u32>) -> Face {
-        for f in &facets {
-            let place = self.place(*f);
+    fn take(&mut self, shape: Shape, flats: &[u32]) -> Face {
+        for flat in flats {
+            let place = self.place(*flat);
             self.taken[place] = true;
         }
-        face(self.solid, shape, facets)
+        let triangles = flats.iter().flat_map(|flat| self.flats.triangles(*flat));
+        face(self.solid, shape, triangles.copied().collect())
     }
 
     fn faces(mut self) -> Vec<Face> {
         let own = &self.segments.group(self.group).faces;
-        // Anywhere, large facets sooner, so that large faces are met soon and no part of the group is forgotten.
-        let weighted = |f: &u32| {
-            let scattered = f64::from(f.wrapping_mul(0x9E37_79B1)) / f64::from(u32::MAX);
-            (-scattered.ln() / self.solid.areas[*f as usize].max(f64::MIN_POSITIVE), *f)
+        // Anywhere, large flats sooner, so that large faces are met soon and no part of the group is forgotten.
+        let weighted = |flat: u32| {
+            let first = self.flats.triangles(flat)[0];
+            let scattered = f64::from(first.wrapping_mul(0x9E37_79B1)) / f64::from(u32::MAX);
+            (-scattered.ln() / self.flats.area(flat).max(f64::MIN_POSITIVE), flat)
         };
-        let mut keyed: Vec<(f64, u32)> = own.iter().map(weighted).collect();
+        let mut keyed: Vec<(f64, u32)> = self.flats.of_group(self.group).map(weighted).collect();
         keyed.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let order: Vec<u32> = keyed.into_iter().map(|k| k.1).collect();
         let small = SMALL * self.segments.group(self.group).area;
@@ -155,10 +153,10 @@ impl<'a> Growth<'a> {
             }
         }
         // What has no shape is freeform, as it hangs together.
-        for seed in self.segments.group(self.group).faces.clone() {
+        for seed in self.flats.of_group(self.group) {
             if self.is_free(seed) {
                 let part = self.around(seed, usize::MAX);
-                found.push(self.take(Shape::Freeform, part));
+                found.push(self.take(Shape::Freeform, &part));
             }
         }
         // Here and there a freeform face is nearly round.
@@ -181,7 +179,7 @@ impl<'a> Growth<'a> {
                 continue;
             }
             if let Some((shape, grown)) = self.largest(seed) {
-                let face = self.take(shape, grown);
+                let face = self.take(shape, &grown);
                 // Any bit of a freeform face is nearly round, if only small enough.
                 failures = if face.area < small { failures + 1 } else { 0 };
                 found.push(face);
@@ -194,14 +192,14 @@ impl<'a> Growth<'a> {
             if failures > FAILURES {
                 break;
             }
-            for f in self.around(seed, SURROUNDINGS[2]) {
-                let place = self.place(f);
+            for flat in self.around(seed, SURROUNDINGS[2]) {
+                let place = self.place(flat);
                 tried[place] = true;
             }
         }
     }
 
-    /// The shape about a facet that reaches farthest.
+    /// The shape about a flat that reaches farthest.
     fn largest(&mut self, seed: u32) -> Option<(Shape, Vec<u32>)> {
         for count in SURROUNDINGS {
             let near = self.around(seed, count);
@@ -213,7 +211,7 @@ impl<'a> Growth<'a> {
                     continue;
                 }
                 let (shape, grown) = self.grown(seed, shape, COMPARED);
-                let area: f64 = grown.iter().map(|f| self.solid.areas[*f as usize]).sum();
+                let area: f64 = grown.iter().map(|flat| self.flats.area(*flat)).sum();
                 if best.as_ref().is_none_or(|b| area > SIMPLER * b.0) {
                     best = Some((area, shape, grown));
                 }
@@ -227,7 +225,7 @@ impl<'a> Growth<'a> {
         None
     }
 
-    /// As far as facets lie on a shape, which is fitted again and again on the way.
+    /// As far as flats lie on a shape, which is fitted again and again on the way.
     fn grown(&mut self, seed: u32, mut shape: Shape, most: usize) -> (Shape, Vec<u32>) {
         let near = self.around(seed, SURROUNDINGS[1]);
         let tolerance = self.tolerance(&self.cloud(&near));
@@ -249,16 +247,18 @@ impl<'a> Growth<'a> {
         (shape, grown)
     }
 
-    /// The free facets about one, the nearest rings first.
+    /// The free flats about one, the nearest rings first.
     fn around(&mut self, seed: u32, most: usize) -> Vec<u32> {
         self.walked(seed, most, |_| true)
     }
 
     fn reached(&mut self, seed: u32, shape: &Shape, tolerance: f64, most: usize) -> Vec<u32> {
-        let solid = self.solid;
-        self.walked(seed, most, |f| {
-            let near = solid.mesh.corners(f).iter().all(|p| shape.distance(*p).abs() <= tolerance);
-            near && shape.outward(solid.centroid(f)).dot(solid.normals[f as usize]).abs() > LEAN.cos()
+        let (solid, flats) = (self.solid, self.flats);
+        self.walked(seed, most, |flat| {
+            let mut distances =
+                flats.corners(solid, flat).map(|v| shape.distance(solid.mesh.positions[v as usize]));
+            distances.all(|d| d.abs() <= tolerance)
+                && shape.outward(flats.middle(flat)).dot(flats.normal(flat)).abs() > LEAN.cos()
         })
     }
 
@@ -269,8 +269,7 @@ impl<'a> Growth<'a> {
         self.seen[place] = self.walk;
         let mut at = 0;
         while at < near.len() && near.len() < most {
-            for h in 3 * near[at]..3 * near[at] + 3 {
-                let other = self.solid.across(h);
+            for other in self.flats.beside(self.solid, near[at]) {
                 if self.is_free(other) && self.seen[self.place(other)] != self.walk && wanted(other) {
                     let place = self.place(other);
                     self.seen[place] = self.walk;
@@ -287,23 +286,21 @@ impl<'a> Growth<'a> {
         if cloud.nodes.len() < MANY { rounding } else { rounding.max(BULGE * cloud.sag()) }
     }
 
-    /// Nodes, some of many, and facets.
-    fn cloud(&self, facets: &[u32]) -> Cloud {
-        let mesh = &self.solid.mesh;
-        let step = (facets.len() / FITTED).max(1);
-        let some = || facets.iter().step_by(step);
-        let mut corners: Vec<(u32, DVec3)> = some()
-            .flat_map(|f| mesh.faces[*f as usize].map(|v| (v, self.solid.normals[*f as usize])))
-            .collect();
-        corners.sort_by_key(|c| c.0);
+    /// Nodes, some of many, and flats.
+    fn cloud(&self, flats: &[u32]) -> Cloud {
+        let step = (flats.len() / FITTED).max(1);
+        let some = || flats.iter().step_by(step).copied();
+        let mut corners: Vec<(u32, u32)> =
+            some().flat_map(|flat| self.flats.corners(self.solid, flat).map(move |v| (v, flat))).collect();
+        corners.sort_unstable();
+        corners.dedup();
         let (mut nodes, mut node_normals) = (Vec::new(), Vec::new());
         for run in corners.chunk_by(|a, b| a.0 == b.0) {
-            nodes.push(mesh.positions[run[0].0 as usize]);
-            node_normals.push(run.iter().map(|c| c.1).sum::<DVec3>().normalize_or_zero());
+            nodes.push(self.solid.mesh.positions[run[0].0 as usize]);
+            let normal: DVec3 = run.iter().map(|c| self.flats.normal(c.1)).sum();
+            node_normals.push(normal.normalize_or_zero());
         }
-        let facet = |f: &u32| {
-            (self.solid.centroid(*f), self.solid.normals[*f as usize], self.solid.areas[*f as usize])
-        };
+        let facet = |flat: u32| (self.flats.middle(flat), self.flats.normal(flat), self.flats.area(flat));
         Cloud { nodes, node_normals, facets: some().map(facet).collect() }
     }
 }

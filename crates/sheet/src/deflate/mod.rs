@@ -5,6 +5,7 @@ mod blends;
 mod closing;
 mod descent;
 mod eigen;
+mod ends;
 mod error;
 mod exact;
 mod faces;
@@ -12,7 +13,9 @@ mod features;
 mod fill;
 mod fit;
 mod flares;
+mod flats;
 mod follow;
+mod looks;
 mod middle;
 mod nearness;
 mod offset;
@@ -216,6 +219,11 @@ pub fn deflate(
     };
     let Chosen { made: Made { sheet, crossing, .. }, with_features } =
         trials.best(&features.gone, &kept, &others, meeting)?;
+    if sheet.faces.is_empty()
+        && let Some(error) = one_sided(&solid, &segments, &walls)
+    {
+        return Err(error);
+    }
     if with_features {
         features.undo();
     }
@@ -254,6 +262,16 @@ pub fn deflate(
         solid_volume: solid.volume,
     };
     Ok(Deflated { sheet: mesh, thickness, report })
+}
+
+/// The largest wall most of which lies opposite to itself.
+fn one_sided(solid: &Solid, segments: &Segments, walls: &Walls) -> Option<DeflateError> {
+    let own = walls.pairs.iter().filter(|p| p.group == p.partner);
+    let mostly = own.filter(|p| p.area > segments.group(p.group).area / 2.0);
+    let largest = mostly.max_by(|p, q| p.area.total_cmp(&q.area).then(q.group.cmp(&p.group)))?;
+    let group = segments.group(largest.group);
+    let at = solid.centroid(*group.faces.first()?);
+    Some(DeflateError::OneSided { area: group.area, at })
 }
 
 /// How many patches stand between two middles.

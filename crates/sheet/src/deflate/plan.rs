@@ -5,11 +5,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec3;
 
 use super::assemble::Moved;
+use super::looks::Pair;
 use super::middle::Middles;
 use super::plane::Plane;
 use super::segments::Segments;
 use super::solid::Solid;
-use super::walls::{Pair, Walls};
+use super::walls::Walls;
 use super::{DeflateOptions, Steps};
 
 /// Sides of a wall whose normals differ by less than this are parallel.

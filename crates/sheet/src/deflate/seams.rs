@@ -61,18 +61,29 @@ pub(super) struct Seams {
     paths: Vec<Vec<u32>>,
     /// The pieces that each borders.
     pieces: Vec<Vec<u32>>,
+    /// Pieces with smaller numbers are plane.
+    first_curved: u32,
 }
 
-/// A part of a border between two neighbouring nodes, and how many pieces it borders.
-type Part = ([u32; 2], usize);
+/// A part of a border between two neighbouring nodes.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    /// The smaller node first.
+    ends: [u32; 2],
+    /// How many pieces it borders.
+    pieces: usize,
+    /// Whether two of them are plane: then it lies on a line, however soft its ends are along that.
+    is_exact: bool,
+}
 
 impl Seams {
-    /// Makes borders agree. `borders`: edges with the number of their piece; `soft`: whether each node is only as exact as
-    /// chords are. O(n log n) and what lies beside each other.
+    /// Makes borders agree. `borders`: edges with the number of their piece, those before `first_curved` plane; `soft`: whether each
+    /// node is only as exact as chords are. O(n log n) and what lies beside each other.
     pub(super) fn new(
         positions: Vec<DVec3>,
         merged: Merged,
         borders: &[([u32; 2], u32)],
+        first_curved: u32,
         soft: &[bool],
         near: Nearness,
     ) -> Self {
@@ -84,7 +95,7 @@ impl Seams {
         let edges: Vec<[u32; 2]> = runs.iter().map(|run| run[0].0).collect();
         let pieces = runs.iter().map(|run| run.iter().map(|e| e.1).collect()).collect();
         let paths = edges.iter().map(|e| e.to_vec()).collect();
-        let mut seams = Self { positions, merged, soft: soft.to_vec(), edges, paths, pieces };
+        let mut seams = Self { positions, merged, soft: soft.to_vec(), edges, paths, pieces, first_curved };
         seams.update();
         let nodes = seams.nodes();
         let most = MOST_CUTS * nodes.len() + MOST_ANYWAY;
@@ -108,7 +119,7 @@ impl Seams {
     /// Closes parts between nodes that are only as exact as chords and so near to each other that the border would zigzag.
     fn merge_short(&mut self, chords: f64) {
         let length = |[a, b]: &[u32; 2]| self.positions[*a as usize].distance(self.positions[*b as usize]);
-        let parts: Vec<[u32; 2]> = self.parts().into_iter().map(|p| p.0).collect();
+        let parts: Vec<[u32; 2]> = self.parts().into_iter().map(|p| p.ends).collect();
         let mut at_node = vec![0u32; self.positions.len()];
         parts.iter().flatten().for_each(|v| at_node[*v as usize] += 1);
         let parts = parts.into_iter();
@@ -215,7 +226,7 @@ impl Seams {
         self.merged.push()
     }
 
-    /// The different parts of all borders, ascending, with the number of pieces that each borders.
+    /// The different parts of all borders, ascending.
     fn parts(&self) -> Vec<Part> {
         let mut parts: Vec<([u32; 2], u32)> = Vec::new();
         for (path, pieces) in self.paths.iter().zip(&self.pieces) {
@@ -226,7 +237,11 @@ impl Seams {
         }
         parts.sort_unstable();
         parts.dedup();
-        parts.chunk_by(|a, b| a.0 == b.0).map(|run| (run[0].0, run.len())).collect()
+        let part = |run: &[([u32; 2], u32)]| {
+            let planes = run.iter().filter(|p| p.1 < self.first_curved).count();
+            Part { ends: run[0].0, pieces: run.len(), is_exact: planes > 1 }
+        };
+        parts.chunk_by(|a, b| a.0 == b.0).map(part).collect()
     }
 
     /// Merges nodes of open edges that are nearest to each other across a gap between chords; whether there were any.
@@ -234,7 +249,7 @@ impl Seams {
         let parts = self.parts();
         let open = self.open_nodes(&parts);
         let nodes = self.nodes();
-        let linked = |a: u32, b: u32| parts.binary_search_by_key(&[a.min(b), a.max(b)], |e| e.0).is_ok();
+        let linked = |a: u32, b: u32| parts.binary_search_by_key(&[a.min(b), a.max(b)], |e| e.ends).is_ok();
         let mut nearest: BTreeMap<u32, (f64, u32)> = BTreeMap::new();
         let shortest = self.shortest_edges(&parts);
         for (a, b) in near_pairs(&self.positions, &nodes, chords) {
@@ -282,9 +297,9 @@ impl Seams {
     }
 
     /// The shortest edge at every node.
-    fn shortest_edges(&self, edges: &[([u32; 2], usize)]) -> Vec<f64> {
+    fn shortest_edges(&self, edges: &[Part]) -> Vec<f64> {
         let mut shortest = vec![f64::INFINITY; self.positions.len()];
-        for ([a, b], _) in edges {
+        for [a, b] in edges.iter().map(|part| &part.ends) {
             let length = self.positions[*a as usize].distance(self.positions[*b as usize]);
             for v in [a, b] {
                 shortest[*v as usize] = shortest[*v as usize].min(length);
@@ -294,9 +309,9 @@ impl Seams {
     }
 
     /// Whether each node has an edge that borders one piece only.
-    fn open_nodes(&self, edges: &[([u32; 2], usize)]) -> Vec<bool> {
+    fn open_nodes(&self, edges: &[Part]) -> Vec<bool> {
         let mut open = vec![false; self.positions.len()];
-        for (ends, pieces) in edges {
+        for Part { ends, pieces, .. } in edges {
             if *pieces == 1 {
                 ends.iter().for_each(|v| open[*v as usize] = true);
             }
@@ -308,7 +323,7 @@ impl Seams {
     fn cut(&mut self, near: Nearness, most: usize) -> usize {
         let borders = self.parts();
         let open = self.open_nodes(&borders);
-        let edges: Vec<[u32; 2]> = borders.iter().map(|e| e.0).collect();
+        let edges: Vec<[u32; 2]> = borders.iter().map(|e| e.ends).collect();
         let mut order: Vec<usize> = (0..edges.len()).collect();
         let low =
             |e: usize| edges[e].map(|v| self.positions[v as usize].x).into_iter().fold(f64::MAX, f64::min);
@@ -363,18 +378,18 @@ impl Seams {
     /// Ends of edge `f` that lie on edge `e`.
     fn nodes_on(
         &self,
-        edges: &[([u32; 2], usize)],
+        edges: &[Part],
         e: usize,
         f: usize,
         open: &[bool],
         near: Nearness,
         inner: &mut [Vec<(f64, u32)>],
     ) {
-        let [a, b] = edges[e].0.map(|v| self.positions[v as usize]);
+        let [a, b] = edges[e].ends.map(|v| self.positions[v as usize]);
         let along = b - a;
         let length = along.length();
-        for (k, &v) in edges[f].0.iter().enumerate() {
-            if edges[e].0.contains(&v) || inner[e].iter().any(|n| n.1 == v) {
+        for (k, &v) in edges[f].ends.iter().enumerate() {
+            if edges[e].ends.contains(&v) || inner[e].iter().any(|n| n.1 == v) {
                 continue;
             }
             let p = self.positions[v as usize] - a;
@@ -382,10 +397,11 @@ impl Seams {
             let off = (p - along * s).length();
             let within = s * length > near.rounding && (1.0 - s) * length > near.rounding;
             // Chords lie beside each other; what crosses at an angle is not the same border.
-            let other = self.positions[edges[f].0[1 - k] as usize] - self.positions[v as usize];
+            let other = self.positions[edges[f].ends[1 - k] as usize] - self.positions[v as usize];
             let beside = other.cross(along).length() < BESIDE * other.length() * length;
-            let gap = open[v as usize] || edges[e].1 == 1;
-            let is_soft = self.soft[v as usize] || edges[e].0.iter().any(|w| self.soft[*w as usize]);
+            let gap = open[v as usize] || edges[e].pieces == 1;
+            let is_soft = self.soft[v as usize]
+                || !edges[e].is_exact && edges[e].ends.iter().any(|w| self.soft[*w as usize]);
             let chord = gap
                 && is_soft
                 && beside
@@ -418,3 +434,26 @@ const SAGITTA: f64 = 0.2;
 const SURELY: f64 = 0.25;
 /// Sine of the angle between chords of the same border, at most.
 const BESIDE: f64 = 0.5;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An ear on the outside of a box, its middle a little above that of the floor: the edge between floor and wall ends in the rounds of
+    /// the upright edges, but lies where it lies.
+    #[test]
+    fn what_two_planes_meet_in_is_not_drawn_to_what_lies_beside_it() {
+        let positions =
+            [[0.0, 0.0], [80.0, 0.0], [30.0, 0.5], [50.0, 0.5]].map(|[x, z]| DVec3::new(x, 0.0, z));
+        let borders = [([0, 1], 0), ([0, 1], 1), ([2, 3], 2)];
+        let path = |first_curved: u32| {
+            let merged = Merged::new(positions.len());
+            let near = Nearness { rounding: 1e-6, chords: 0.7 };
+            let soft = [true, true, false, false];
+            Seams::new(positions.to_vec(), merged, &borders, first_curved, &soft, near).path(0, 1)
+        };
+        assert_eq!(path(3), [0, 1]);
+        // If one of the two is curved it is a chord, and what is beside it may be the same border.
+        assert_eq!(path(1), [0, 2, 3, 1]);
+    }
+}

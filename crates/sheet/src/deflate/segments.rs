@@ -25,6 +25,8 @@ pub(super) struct Segments {
     pub(super) groups: Vec<Group>,
     /// Group of every face.
     pub(super) of_face: Vec<u32>,
+    /// Of every face, which of the skin's largest parts in one plane it is in.
+    pub(super) plane_part: Vec<u32>,
 }
 
 impl Segments {
@@ -66,7 +68,7 @@ impl Segments {
             let plane = plane.then(|| mean_plane(solid, &faces));
             groups.push(Group { faces, plane, area });
         }
-        Self { groups, of_face }
+        Self { groups, of_face, plane_part: regions.of_face }
     }
 
     /// Makes groups of their own of sets of faces, and of what these leave in several pieces.

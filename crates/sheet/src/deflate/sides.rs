@@ -7,10 +7,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::blends::Blends;
+use super::looks::Pair;
 use super::plane::Plane;
 use super::segments::Segments;
 use super::solid::{SHARP, Solid};
-use super::walls::{Pair, Walls};
+use super::walls::Walls;
 
 /// Union–find whose members know on which of two sides they are.
 pub(super) struct Parity {
@@ -81,6 +82,7 @@ pub(super) fn kept_groups(
         }
     }
     let stood_on = creases.stood_on(walls, &mut parity);
+    let levels = levels(segments, walls);
     // What speaks for each side of each set.
     let mut score = vec![[0.0f64; 2]; n];
     let mut faces = vec![[0usize; 2]; n];
@@ -89,11 +91,13 @@ pub(super) fn kept_groups(
     for g in (0..n as u32).filter(|g| walls.is_wall[*g as usize]) {
         let (root, side) = parity.find(g);
         let group = segments.group(g);
-        let mid_planes = mids[g as usize].len();
         let wide = group.area.sqrt();
-        // A wall with two middles would have to be cut in two.
-        let split = (mid_planes.max(1) - 1) as f64 * 4.0 * wide;
-        // A curved wall has edges where others stand on it on their side only; plane ones are cut by what lies in them.
+        // A wall with two middles would have to be cut in two. Plane ones are cut by what lies in them; a curved one has edges where its
+        // thickness steps, or where others stand on it, on that side only.
+        let split = match group.plane {
+            Some(_) => 4.0 * wide * (mids[g as usize].len().max(1) - 1) as f64,
+            None => STOOD_ON * 4.0 * wide * (levels[g as usize] - 1) as f64,
+        };
         let stood_on = STOOD_ON * stood_on[g as usize];
         score[root as usize][usize::from(side)] += creases.concave[g as usize] + stood_on - split;
         faces[root as usize][usize::from(side)] += group.faces.len();
@@ -121,6 +125,23 @@ pub(super) fn kept_groups(
         .collect();
     keep_sides_with_signs(walls, mids, &mut kept);
     kept
+}
+
+/// How many thicknesses each group has, seen from the groups opposite to it: where the other side of a round wall steps, what looks at
+/// it from there knows, and its own facets need not. O(n log n) in pairs.
+fn levels(segments: &Segments, walls: &Walls) -> Vec<usize> {
+    let mut seen: Vec<(u32, f64)> = Vec::new();
+    for pair in &walls.pairs {
+        if pair.area > SEEN_WHOLE * segments.group(pair.group).area {
+            seen.push((pair.partner, pair.thickness));
+        }
+    }
+    seen.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let mut levels = vec![1; segments.groups.len()];
+    for two in seen.windows(2).filter(|two| two[0].0 == two[1].0) {
+        levels[two[0].0 as usize] += usize::from(two[1].1 > LEVEL * two[0].1);
+    }
+    levels
 }
 
 /// Plates that were kept on the side that does not know where their thickness steps are kept on the other one: what is engraved into the
@@ -153,6 +174,10 @@ const HARDLY: f64 = 10.0;
 const MUCH: f64 = 0.01;
 /// A pair that covers less than this share of the smaller group only touches.
 const TOUCHED: f64 = 0.1;
+
+/// A group that looks at another with more than this share of itself tells how thick that is; thicknesses differ by this factor.
+const SEEN_WHOLE: f64 = 0.5;
+const LEVEL: f64 = 1.2;
 
 /// How walls meet walls.
 struct Creases {

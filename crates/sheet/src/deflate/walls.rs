@@ -1,12 +1,11 @@
 //! Which groups are walls, and which groups lie opposite to each other (Sheen et al. 2008, section 6.1).
 
-use std::collections::BTreeMap;
-
 use glam::DVec3;
 use rayon::prelude::*;
 
 use super::DeflateOptions;
-use super::regions::width;
+use super::ends::{Borders, ends_of_thinner_walls, sides_of_low_things};
+use super::looks::{Look, Looks, Pair, mean_thickness, partners_in};
 use super::segments::Segments;
 use super::solid::{SHARP, Solid};
 
@@ -16,36 +15,10 @@ pub(super) const FACET_LEAN: f64 = 35.0 / 180.0 * std::f64::consts::PI;
 /// needs more.
 const PAIRED_PLANE: f64 = 0.3;
 const PAIRED_CURVED: f64 = 0.6;
-/// Thicknesses of one part differ from one to the next by no more than this factor; what is beyond is not thickness but
-/// the part's extent.
-const THICKNESS_GAP: f64 = 2.5;
-/// Where this share of all is thinner, a smaller factor is enough: the rest is lumps and heights of ribs.
-const NEARLY_ALL: f64 = 0.9;
-const SMALL_GAP: f64 = 1.6;
-/// What is broad tells the thickness if it has more than this share of what looks at something.
-const BROAD: f64 = 0.4;
-/// A thickness told from the solid is no more than this share of how far its walls reach.
-const SLENDER: f64 = 0.35;
-/// A wall is a plate whatever the others are if it has this share of the skin, is less thick than this share of its width,
-/// and evenly so up to this share.
-const PLATE: f64 = 0.02;
-const FLAT: f64 = 0.2;
-const PLATE_ALIKE: f64 = 0.2;
 /// Walls are thicker than this share of what walls are on the whole.
 const HAIR: f64 = 0.03;
 /// Walls are wider than this share of it.
 const TRIFLE: f64 = 0.3;
-/// A strip that is narrower than this share of its thickness is no wall.
-const NARROW: f64 = 0.5;
-/// What is thinner than this share of what its end would be as a wall ends there.
-const THINNER: f64 = 0.9;
-/// Or than so many times that, if its faces are so many times larger than the end: of a bar, those sides that go on in a plate are the wall.
-const GOES_ON_AS: f64 = 2.0;
-const LARGER: f64 = 3.0;
-/// More than this share of an end's outline is on both sides of the wall that ends.
-const MOST_OF: f64 = 0.6;
-/// An end is no wider than this many times the thickness of that wall.
-const AS_WIDE: f64 = 1.2;
 /// Neighbours are as thick if they are by this share.
 const ALIKE: f64 = 0.1;
 /// Rays begin this far inside, over the solid's size.
@@ -58,19 +31,6 @@ pub(super) struct Opposite {
     pub(super) face: u32,
     /// How far through the material, in mm.
     pub(super) distance: f64,
-}
-
-/// Two groups that lie opposite to each other.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Pair {
-    /// The group that was looked from.
-    pub(super) group: u32,
-    /// The one that was seen.
-    pub(super) partner: u32,
-    /// Area of `group` from which `partner` is seen, in mm².
-    pub(super) area: f64,
-    /// Mean distance in mm.
-    pub(super) thickness: f64,
 }
 
 /// The walls of a solid.
@@ -98,13 +58,6 @@ struct Cast {
     face: u32,
     area: f64,
     hit: Option<Opposite>,
-}
-
-/// A look through the material from a point of a face.
-struct Look {
-    group: u32,
-    area: f64,
-    seen: Option<(u32, f64)>,
 }
 
 impl Walls {
@@ -148,26 +101,21 @@ impl Walls {
     pub(super) fn pair(&mut self, solid: &Solid, segments: &Segments, options: &DeflateOptions) {
         let walls = self;
         let total: f64 = solid.areas.iter().sum();
-        let look = |cast: &Cast| Look {
-            group: segments.of(cast.face),
-            area: cast.area,
-            seen: cast
-                .hit
-                .filter(|hit| walls.faces_back(solid, segments, cast.face, hit.face))
-                .map(|hit| (segments.of(hit.face), hit.distance)),
+        let look = |cast: &Cast| {
+            let hit = cast.hit.filter(|hit| walls.faces_back(solid, segments, cast.face, hit.face))?;
+            let [group, partner] = [cast.face, hit.face].map(|f| segments.of(f));
+            Some(Look { group, partner, thickness: hit.distance, area: cast.area })
         };
-        let mut looks: Vec<Look> = walls.casts.par_iter().map(look).collect();
-        walls.max_thickness = options.max_thickness.unwrap_or_else(|| {
-            let told = told_thickness(&broad(solid, segments, &looks), total);
-            thick_plates(solid, segments, &looks, total).into_iter().fold(told, f64::max)
-        });
-        for look in &mut looks {
-            look.seen = look.seen.filter(|(_, s)| *s <= walls.max_thickness);
-        }
-        let paired: f64 = looks.iter().filter(|l| l.seen.is_some()).map(|l| l.area).sum();
+        let (mut looks, borders) = rayon::join(
+            || Looks::new(walls.casts.par_iter().filter_map(look).collect()),
+            || Borders::new(solid, segments),
+        );
+        let told = || looks.told_thickness(solid, segments, &borders);
+        walls.max_thickness = options.max_thickness.unwrap_or_else(told);
+        looks.retain_within(walls.max_thickness);
         // An empty sum is a negative zero.
-        walls.paired_share = paired.max(0.0) / total + 0.0;
-        walls.pairs = pairs_of(&looks);
+        walls.paired_share = looks.area().max(0.0) / total + 0.0;
+        walls.pairs = looks.pairs();
         let thick: Vec<Option<f64>> = (0..segments.groups.len() as u32)
             .map(|g| {
                 let group = segments.group(g);
@@ -192,8 +140,8 @@ impl Walls {
                 walls.is_wall[g as usize] = beside.any(|o| o != g && thick[o as usize].is_some_and(alike));
             }
         }
-        let ends = ends_of_thinner_walls(solid, segments, &walls.pairs, &thick);
-        for g in sides_of_low_things(solid, segments, &thick).into_iter().chain(ends) {
+        let ends = ends_of_thinner_walls(segments, &borders, &walls.pairs, &thick);
+        for g in sides_of_low_things(segments, &borders, &thick).into_iter().chain(ends) {
             walls.is_wall[g as usize] = false;
         }
         // Who is no wall is nobody's partner.
@@ -256,79 +204,6 @@ fn sides(segments: &Segments, g: u32) -> impl Iterator<Item = u32> {
     segments.group(g).faces.iter().flat_map(|f| 3 * f..3 * f + 3)
 }
 
-/// Groups with a thickness that are narrow strips and do not run into anything wider, not even over other strips: the sides of embossed
-/// letters. O(n).
-fn sides_of_low_things(solid: &Solid, segments: &Segments, thick: &[Option<f64>]) -> Vec<u32> {
-    let beside = |h: u32| segments.of(solid.across(h));
-    let is_narrow = |(g, thick): (u32, &Option<f64>)| {
-        let outline: f64 = sides(segments, g).filter(|h| beside(*h) != g).map(|h| solid.length(h)).sum();
-        thick.is_some_and(|thick| 2.0 * segments.group(g).area < NARROW * thick * outline)
-    };
-    let mut is_side: Vec<bool> = (0..).zip(thick).map(is_narrow).collect();
-    let wide = |g: &u32| thick[*g as usize].is_some() && !is_side[*g as usize];
-    let mut stack: Vec<u32> = (0..thick.len() as u32).filter(wide).collect();
-    while let Some(g) = stack.pop() {
-        for other in sides(segments, g).filter(|h| solid.fold_cosine(*h) > SHARP.cos()).map(beside) {
-            if std::mem::replace(&mut is_side[other as usize], false) {
-                stack.push(other);
-            }
-        }
-    }
-    (0..thick.len() as u32).filter(|g| is_side[*g as usize]).collect()
-}
-
-/// Groups that are the ends of thinner walls, even if they have a partner: the sides of slats that are wider than thick. What is about
-/// both of them, across sharp edges that stick out, lies opposite to each other. O(n log n).
-fn ends_of_thinner_walls(
-    solid: &Solid,
-    segments: &Segments,
-    pairs: &[Pair],
-    thick: &[Option<f64>],
-) -> Vec<u32> {
-    // How long the outline of a group is, and its sharp borders that stick out, by the group beyond.
-    let about = |g: u32| {
-        let (mut outline, mut about) = (0.0, BTreeMap::new());
-        for h in sides(segments, g) {
-            let other = segments.of(solid.across(h));
-            if other != g {
-                outline += solid.length(h);
-                if solid.fold_cosine(h) < SHARP.cos() && solid.is_convex(h) {
-                    *about.entry(other).or_insert(0.0) += solid.length(h);
-                }
-            }
-        }
-        (outline, about)
-    };
-    let surroundings: Vec<(f64, BTreeMap<u32, f64>)> =
-        (0..thick.len() as u32).into_par_iter().map(about).collect();
-    let is_end = |(g, own): (u32, f64)| {
-        let (outline, beside) = &surroundings[g as usize];
-        let area = segments.group(g).area;
-        // How thick the wall is that ends here at what is beside, with its other side among `others`.
-        let ending = |o: u32, others: &dyn Fn(u32) -> bool| {
-            let is_larger = segments.group(o).area > LARGER * area;
-            let thinner = if is_larger { GOES_ON_AS } else { THINNER } * own;
-            let found = partners_in(pairs, o).iter().find(|p| p.thickness < thinner && others(p.partner));
-            found.map(|p| p.thickness)
-        };
-        let ends = |counts: &dyn Fn(u32) -> bool| {
-            let ending = beside.iter().filter(|(o, _)| counts(**o)).filter_map(|(o, length)| {
-                Some((*length, ending(*o, &|other| counts(other) && beside.contains_key(&other))?))
-            });
-            // Both sides of the wall are counted. An end is as wide as the wall is thick; what has many holes is not.
-            let (along, reach) =
-                ending.fold((0.0, 0.0), |(l, r), (length, thick)| (l + length, r + length * thick / 2.0));
-            along > MOST_OF * outline && area < AS_WIDE * reach
-        };
-        ends(&|_| true) && {
-            let main = partners_in(pairs, g).iter().max_by(|p, q| p.area.total_cmp(&q.area));
-            main.is_some_and(|p| ends(&|o| surroundings[p.partner as usize].1.contains_key(&o)))
-        }
-    };
-    let walled = (0..).zip(thick).filter_map(|(g, t)| Some((g, (*t)?)));
-    walled.filter(|wall| is_end(*wall)).map(|(g, _)| g).collect()
-}
-
 /// Whether smooth edges about each face bend away from each other on the whole. O(n).
 fn is_proud(solid: &Solid) -> Vec<bool> {
     let bend = |h: u32| if solid.fold_cosine(h) > SHARP.cos() { solid.bend(h) } else { 0.0 };
@@ -351,105 +226,4 @@ pub(super) fn spread([a, b, c]: [DVec3; 3], n: u32) -> impl Iterator<Item = DVec
         let shifts = if i + j + 1 < n { &[1.0 / 3.0, 2.0 / 3.0][..] } else { &[1.0 / 3.0] };
         shifts.iter().map(move |shift| at(f64::from(i) + shift, f64::from(j) + shift))
     })
-}
-
-/// Thicknesses and areas of looks from what is no end of a wall and no side of something low, the thinnest first. Where hardly anything
-/// else is, as in a block, from everywhere.
-fn broad(solid: &Solid, segments: &Segments, looks: &[Look]) -> Vec<(f64, f64)> {
-    let pairs = pairs_of(looks);
-    let thick: Vec<Option<f64>> =
-        (0..segments.groups.len() as u32).map(|g| mean_thickness(partners_in(&pairs, g))).collect();
-    let mut is_broad = vec![true; thick.len()];
-    let ends = ends_of_thinner_walls(solid, segments, &pairs, &thick);
-    for g in sides_of_low_things(solid, segments, &thick).into_iter().chain(ends) {
-        is_broad[g as usize] = false;
-    }
-    let seen = |look: &Look| Some((look.seen?.1, look.area));
-    let area = |seen: &[(f64, f64)]| seen.iter().map(|s| s.1).sum::<f64>();
-    let all: Vec<(f64, f64)> = looks.iter().filter_map(seen).collect();
-    let broad: Vec<(f64, f64)> =
-        looks.iter().filter(|l| is_broad[l.group as usize]).filter_map(seen).collect();
-    let mut seen = if area(&broad) > BROAD * area(&all) { broad } else { all };
-    seen.par_sort_by(|a, b| a.0.total_cmp(&b.0));
-    seen
-}
-
-/// The largest thickness, told from looks and their areas: the median one, and what follows on it without a gap.
-fn told_thickness(seen: &[(f64, f64)], area: f64) -> f64 {
-    let all: f64 = seen.iter().map(|s| s.1).sum();
-    let (mut sum, mut largest) = (0.0, 0.0);
-    for (thickness, part) in seen {
-        let gap = if sum >= NEARLY_ALL * all { SMALL_GAP } else { THICKNESS_GAP };
-        if sum >= 0.4 * all && *thickness > gap * largest {
-            break;
-        }
-        largest = *thickness;
-        sum += part;
-    }
-    // Walls that are seen from both sides cover half of the skin.
-    (1.02 * largest).min(SLENDER * (area / 2.0).sqrt())
-}
-
-/// How thick walls are that are much broader than thick, evenly so, and not just a trifle of the skin, whatever the rest is: the base
-/// below thin fins, the thick end of a tube, a plate that forks.
-fn thick_plates(solid: &Solid, segments: &Segments, looks: &[Look], area: f64) -> Vec<f64> {
-    let mut seen: Vec<(u32, u32, f64, f64)> = looks
-        .iter()
-        .filter_map(|l| {
-            let (partner, thickness) = l.seen?;
-            (l.group != partner).then_some((l.group, partner, thickness, l.area))
-        })
-        .collect();
-    seen.sort_by(|a, b| (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2)));
-    let wide = |g: u32| width(solid, &segments.group(g).faces);
-    // Most of a group, or what two have of each other; `of` is its area, `broad` how wide it is.
-    let plate = |run: &[(u32, u32, f64, f64)], of: f64, broad: &dyn Fn() -> f64| {
-        let all: f64 = run.iter().map(|r| r.3).sum();
-        let mut sum = 0.0;
-        let middle = run.iter().find(|r| {
-            sum += r.3;
-            sum >= all / 2.0
-        })?;
-        let alike = run.iter().filter(|r| (r.2 - middle.2).abs() < PLATE_ALIKE * middle.2);
-        let is_plate = of >= PLATE * area
-            && middle.2 < FLAT * of.sqrt().min(broad())
-            && alike.map(|r| r.3).sum::<f64>() >= 0.5 * of;
-        is_plate.then_some(1.02 * middle.2)
-    };
-    let area_of = |run: &[(u32, u32, f64, f64)]| run.iter().map(|r| r.3).sum::<f64>();
-    let of_pairs = seen
-        .chunk_by(|a, b| (a.0, a.1) == (b.0, b.1))
-        .filter_map(|run| plate(run, area_of(run), &|| wide(run[0].0).min(wide(run[0].1))));
-    let mut plates: Vec<f64> = of_pairs.collect();
-    seen.sort_by(|a, b| a.0.cmp(&b.0).then(a.2.total_cmp(&b.2)));
-    let of_groups = seen.chunk_by(|a, b| a.0 == b.0);
-    plates.extend(of_groups.filter_map(|run| plate(run, segments.group(run[0].0).area, &|| wide(run[0].0))));
-    plates
-}
-
-/// The pairs that begin with a group, of pairs that are ordered by it.
-fn partners_in(pairs: &[Pair], group: u32) -> &[Pair] {
-    let from = pairs.partition_point(|p| p.group < group);
-    let to = pairs.partition_point(|p| p.group <= group);
-    &pairs[from..to]
-}
-
-/// The mean thickness of pairs, by area; `None` if they have none.
-pub(super) fn mean_thickness(pairs: &[Pair]) -> Option<f64> {
-    let area: f64 = pairs.iter().map(|p| p.area).sum();
-    (area > 0.0).then(|| pairs.iter().map(|p| p.area * p.thickness).sum::<f64>() / area)
-}
-
-/// The pairs that some looks make, ordered by group, then by partner.
-fn pairs_of(looks: &[Look]) -> Vec<Pair> {
-    let mut seen: Vec<(u32, u32, f64, f64)> =
-        looks.iter().filter_map(|l| l.seen.map(|(partner, s)| (l.group, partner, l.area, s))).collect();
-    seen.par_sort_by_key(|s| (s.0, s.1));
-    let same = |a: &(u32, u32, f64, f64), b: &(u32, u32, f64, f64)| (a.0, a.1) == (b.0, b.1);
-    let pair = |run: &[(u32, u32, f64, f64)]| {
-        let area: f64 = run.iter().map(|r| r.2).sum();
-        let thickness = run.iter().map(|r| r.2 * r.3).sum::<f64>() / area.max(f64::MIN_POSITIVE);
-        Pair { group: run[0].0, partner: run[0].1, area, thickness }
-    };
-    seen.chunk_by(same).map(pair).collect()
 }
