@@ -107,6 +107,13 @@ struct Growth<'a> {
     walk: u32,
 }
 
+/// A face as flats.
+struct Found {
+    shape: Shape,
+    flats: Vec<u32>,
+    area: f64,
+}
+
 impl<'a> Growth<'a> {
     fn new(solid: &'a Solid, segments: &'a Segments, flats: &'a Flats, group: u32) -> Self {
         let n = flats.of_group(group).len();
@@ -122,13 +129,21 @@ impl<'a> Growth<'a> {
         self.flats.of_group(self.group).contains(&flat) && !self.taken[self.place(flat)]
     }
 
-    fn take(&mut self, shape: Shape, flats: &[u32]) -> Face {
-        for flat in flats {
+    fn take(&mut self, shape: Shape, flats: Vec<u32>) -> Found {
+        for flat in &flats {
             let place = self.place(*flat);
             self.taken[place] = true;
         }
-        let triangles = flats.iter().flat_map(|flat| self.flats.triangles(*flat));
-        face(self.solid, shape, triangles.copied().collect())
+        Found { shape, area: self.area(&flats), flats }
+    }
+
+    fn area(&self, flats: &[u32]) -> f64 {
+        flats.iter().map(|flat| self.flats.area(*flat)).sum()
+    }
+
+    fn face(&self, found: &Found) -> Face {
+        let triangles = found.flats.iter().flat_map(|flat| self.flats.triangles(*flat));
+        face(self.solid, found.shape, triangles.copied().collect())
     }
 
     fn faces(mut self) -> Vec<Face> {
@@ -143,7 +158,7 @@ impl<'a> Growth<'a> {
         keyed.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let order: Vec<u32> = keyed.into_iter().map(|k| k.1).collect();
         let small = SMALL * self.segments.group(self.group).area;
-        let mut found = Vec::new();
+        let mut found: Vec<Found> = Vec::new();
         // What runs into a face is seen better once that one is gone.
         for _ in 0..PASSES {
             let before = found.len();
@@ -152,26 +167,74 @@ impl<'a> Growth<'a> {
                 break;
             }
         }
+        self.give_back(&mut found);
         // What has no shape is freeform, as it hangs together.
         for seed in self.flats.of_group(self.group) {
             if self.is_free(seed) {
                 let part = self.around(seed, usize::MAX);
-                found.push(self.take(Shape::Freeform, &part));
+                found.push(self.take(Shape::Freeform, part));
             }
         }
         // Here and there a freeform face is nearly round.
         let area: f64 = found.iter().map(|f| f.area).sum();
         let sum =
-            |is_in: &dyn Fn(&Face) -> bool| found.iter().filter(|f| is_in(f)).map(|f| f.area).sum::<f64>();
+            |is_in: &dyn Fn(&Found) -> bool| found.iter().filter(|f| is_in(f)).map(|f| f.area).sum::<f64>();
         let freeform = sum(&|f| f.shape == Shape::Freeform);
         let in_pieces = sum(&|f| f.shape != Shape::Freeform && f.area < PIECE * area);
         if freeform > LEAST * area && freeform + in_pieces > MOSTLY * area {
             return vec![face(self.solid, Shape::Freeform, own.clone())];
         }
-        found
+        found.iter().map(|found| self.face(found)).collect()
     }
 
-    fn pass(&mut self, order: &[u32], small: f64, found: &mut Vec<Face>) {
+    /// Gives facets to larger faces whose shapes they lie on: smaller ones that were met before may have taken them. O(n), and once more
+    /// for every time that a facet changes hands.
+    fn give_back(&mut self, found: &mut Vec<Found>) {
+        let mut owner = vec![NONE; self.taken.len()];
+        for (k, face) in (0..).zip(&*found) {
+            face.flats.iter().for_each(|flat| owner[self.place(*flat)] = k);
+        }
+        let mut order: Vec<u32> = (0..found.len() as u32).collect();
+        let area = |k: u32| found.get(k as usize).map_or(0.0, |f| f.area);
+        order.sort_by(|a, b| area(*b).total_cmp(&area(*a)).then(a.cmp(b)));
+        let own = self.flats.of_group(self.group);
+        for k in order {
+            let face = &found[k as usize];
+            let tolerance = self.tolerance(&self.cloud(&face.flats));
+            let mut stack: Vec<u32> =
+                face.flats.iter().copied().filter(|flat| owner[self.place(*flat)] == k).collect();
+            while let Some(flat) = stack.pop() {
+                for other in self.flats.beside(self.solid, flat).filter(|other| own.contains(other)) {
+                    let place = self.place(other);
+                    if owner[place] != k
+                        && area(owner[place]) < face.area
+                        && self.is_on(&face.shape, tolerance, other)
+                    {
+                        owner[place] = k;
+                        self.taken[place] = true;
+                        stack.push(other);
+                    }
+                }
+            }
+        }
+        found.iter_mut().for_each(|face| face.flats.clear());
+        for (flat, k) in own.zip(owner).filter(|(_, k)| *k != NONE) {
+            found[k as usize].flats.push(flat);
+        }
+        found.retain(|face| !face.flats.is_empty());
+        found.iter_mut().for_each(|face| face.area = self.area(&face.flats));
+    }
+
+    /// Whether a flat lies on a shape.
+    fn is_on(&self, shape: &Shape, tolerance: f64, flat: u32) -> bool {
+        let (solid, flats) = (self.solid, self.flats);
+        let mut distances =
+            flats.corners(solid, flat).map(|v| shape.distance(solid.mesh.positions[v as usize]));
+        distances.all(|d| d.abs() <= tolerance)
+            && shape.outward(flats.middle(flat)).dot(flats.normal(flat)).abs() > LEAN.cos()
+    }
+
+    fn pass(&mut self, order: &[u32], small: f64, found: &mut Vec<Found>) {
         let mut tried = vec![false; order.len()];
         let mut failures = 0;
         for &seed in order {
@@ -179,7 +242,7 @@ impl<'a> Growth<'a> {
                 continue;
             }
             if let Some((shape, grown)) = self.largest(seed) {
-                let face = self.take(shape, &grown);
+                let face = self.take(shape, grown);
                 // Any bit of a freeform face is nearly round, if only small enough.
                 failures = if face.area < small { failures + 1 } else { 0 };
                 found.push(face);
@@ -249,20 +312,14 @@ impl<'a> Growth<'a> {
 
     /// The free flats about one, the nearest rings first.
     fn around(&mut self, seed: u32, most: usize) -> Vec<u32> {
-        self.walked(seed, most, |_| true)
+        self.walked(seed, most, |_, _| true)
     }
 
     fn reached(&mut self, seed: u32, shape: &Shape, tolerance: f64, most: usize) -> Vec<u32> {
-        let (solid, flats) = (self.solid, self.flats);
-        self.walked(seed, most, |flat| {
-            let mut distances =
-                flats.corners(solid, flat).map(|v| shape.distance(solid.mesh.positions[v as usize]));
-            distances.all(|d| d.abs() <= tolerance)
-                && shape.outward(flats.middle(flat)).dot(flats.normal(flat)).abs() > LEAN.cos()
-        })
+        self.walked(seed, most, |growth, flat| growth.is_on(shape, tolerance, flat))
     }
 
-    fn walked(&mut self, seed: u32, most: usize, wanted: impl Fn(u32) -> bool) -> Vec<u32> {
+    fn walked(&mut self, seed: u32, most: usize, wanted: impl Fn(&Self, u32) -> bool) -> Vec<u32> {
         self.walk += 1;
         let mut near = vec![seed];
         let place = self.place(seed);
@@ -270,7 +327,7 @@ impl<'a> Growth<'a> {
         let mut at = 0;
         while at < near.len() && near.len() < most {
             for other in self.flats.beside(self.solid, near[at]) {
-                if self.is_free(other) && self.seen[self.place(other)] != self.walk && wanted(other) {
+                if self.is_free(other) && self.seen[self.place(other)] != self.walk && wanted(self, other) {
                     let place = self.place(other);
                     self.seen[place] = self.walk;
                     near.push(other);

@@ -82,7 +82,7 @@ pub(super) fn kept_groups(
         }
     }
     let stood_on = creases.stood_on(walls, &mut parity);
-    let levels = levels(segments, walls);
+    let levels = widths_of_levels(segments, walls);
     // What speaks for each side of each set.
     let mut score = vec![[0.0f64; 2]; n];
     let mut faces = vec![[0usize; 2]; n];
@@ -96,7 +96,7 @@ pub(super) fn kept_groups(
         // thickness steps, or where others stand on it, on that side only.
         let split = match group.plane {
             Some(_) => 4.0 * wide * (mids[g as usize].len().max(1) - 1) as f64,
-            None => STOOD_ON * 4.0 * wide * (levels[g as usize] - 1) as f64,
+            None => STOOD_ON * 4.0 * levels[g as usize],
         };
         let stood_on = STOOD_ON * stood_on[g as usize];
         score[root as usize][usize::from(side)] += creases.concave[g as usize] + stood_on - split;
@@ -127,21 +127,21 @@ pub(super) fn kept_groups(
     kept
 }
 
-/// How many thicknesses each group has, seen from the groups opposite to it: where the other side of a round wall steps, what looks at
-/// it from there knows, and its own facets need not. O(n log n) in pairs.
-fn levels(segments: &Segments, walls: &Walls) -> Vec<usize> {
-    let mut seen: Vec<(u32, f64)> = Vec::new();
-    for pair in &walls.pairs {
-        if pair.area > SEEN_WHOLE * segments.group(pair.group).area {
-            seen.push((pair.partner, pair.thickness));
+/// How wide the levels of each group are together, but for one: where the other side of a round wall steps, what looks at it from there
+/// knows, and its own facets need not. O(n log n) in pairs.
+fn widths_of_levels(segments: &Segments, walls: &Walls) -> Vec<f64> {
+    let is_level = |p: &&Pair| {
+        p.area > SEEN_WHOLE * segments.group(p.group).area && p.area.sqrt() > BROADER * p.thickness
+    };
+    let mut seen: Vec<&Pair> = walls.pairs.iter().filter(is_level).collect();
+    seen.sort_by(|a, b| a.partner.cmp(&b.partner).then(a.thickness.total_cmp(&b.thickness)));
+    let mut widths = vec![0.0; segments.groups.len()];
+    for two in seen.windows(2).filter(|two| two[0].partner == two[1].partner) {
+        if two[1].thickness > LEVEL * two[0].thickness {
+            widths[two[0].partner as usize] += two[0].area.min(two[1].area).sqrt();
         }
     }
-    seen.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    let mut levels = vec![1; segments.groups.len()];
-    for two in seen.windows(2).filter(|two| two[0].0 == two[1].0) {
-        levels[two[0].0 as usize] += usize::from(two[1].1 > LEVEL * two[0].1);
-    }
-    levels
+    widths
 }
 
 /// Plates that were kept on the side that does not know where their thickness steps are kept on the other one: what is engraved into the
@@ -178,6 +178,8 @@ const TOUCHED: f64 = 0.1;
 /// A group that looks at another with more than this share of itself tells how thick that is; thicknesses differ by this factor.
 const SEEN_WHOLE: f64 = 0.5;
 const LEVEL: f64 = 1.2;
+/// A level is so many times as broad as thick.
+const BROADER: f64 = 2.0;
 
 /// How walls meet walls.
 struct Creases {
