@@ -61,3 +61,33 @@ fn a_collar_stays_however_its_sides_are_meshed() {
         }
     }
 }
+
+/// A boss the outside of which slants while its bore does not, on a plate that goes on within it: both parts of the plate and the boss meet
+/// in one circle, halfway between its sides at the middle of the plate.
+#[test]
+fn a_boss_with_draft_stands_on_one_joint() {
+    for (inner, outer) in [(156, 156), (100, 156), (60, 48)] {
+        let (foot, top, high) = (6.6, 5.4, 12.0);
+        let solid = rings(&[
+            (30.0, 0.0, outer),
+            (30.0, 2.2, outer),
+            (foot, 2.2, outer),
+            (top, high, outer),
+            (4.0, high, inner),
+            (4.0, 2.2, inner),
+            (1.0, 2.2, inner),
+            (1.0, 0.0, inner),
+        ]);
+        for solid in [&solid, &turned(&solid)] {
+            let thin = deflate(solid, &DeflateOptions::default(), &Nobody).unwrap();
+            let (r, what) = (&thin.report, format!("{inner} chords inside, {outer} outside"));
+            assert_eq!([r.patches, r.joints, r.free_loops, r.components], [3, 1, 3, 1], "{what}");
+            assert_eq!((r.self_intersections, r.lost_edges), (0, 0), "{what}");
+            let [foot, top] =
+                [foot + (foot - top) * 1.1 / (high - 2.2), top].map(|outside| (outside + 4.0) / 2.0);
+            let boss = PI * (foot + top) * (high - 1.1).hypot(foot - top);
+            let area = PI * (30.0f64.powi(2) - 1.0) + boss;
+            assert!((r.area / area - 1.0).abs() < 0.005, "{what}: {} mm² of {area}", r.area);
+        }
+    }
+}

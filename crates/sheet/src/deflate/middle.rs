@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::plane::{Plane, PlaneTable};
 use super::segments::Segments;
-use super::solid::Solid;
+use super::solid::{SHARP, Solid};
 use super::walls::{Opposite, Walls};
 
 /// A partner counts if it covers this share of a wall.
@@ -21,6 +21,9 @@ const STEP: f64 = 0.01;
 const ALIGNED: f64 = 0.999;
 /// Looks through the material at a corner begin this far from it towards the middle of the face.
 const INSET: f64 = 0.1;
+
+/// A facet bends if its normal differs by more than this from that of a neighbour.
+const BENT: f64 = 1e-4;
 
 /// The middle of a wall at a corner of a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -204,19 +207,26 @@ impl Middles {
             let exact = self.between(group, pair.partner).map(|b| b.1);
             return [Some(Middle { plane, exact, thickness: pair.thickness }); 3];
         }
+        let straight = straight_along(solid, f);
         solid.mesh.corners(f).map(|corner| {
             let p = corner.lerp(middle, INSET);
             // Behind a fillet the wall is thicker than it is.
             let wall = |o: &Opposite| walls.is_wall[segments.of(o.face) as usize];
-            let opposite = walls.opposite(solid, segments, f, p).filter(wall);
-            let opposite = opposite.or_else(|| walls.opposite_middle(solid, segments, f).filter(wall))?;
+            let beside = walls.opposite(solid, segments, f, p).filter(wall).map(|opposite| (p, opposite));
+            let at_middle = || walls.opposite_middle(solid, segments, f).filter(wall).map(|o| (middle, o));
+            let (p, opposite) = beside.or_else(at_middle)?;
             let partner = segments.of(opposite.face);
             if let Some((plane, number)) = self.between(group, partner) {
                 let thickness = opposite.distance;
                 return Some(Middle { plane, exact: Some(number), thickness });
             }
-            let offset = normal.dot(corner) - opposite.distance / 2.0;
-            Some(Middle { plane: Plane { normal, offset }, exact: None, thickness: opposite.distance })
+            // A wall with draft lies aslant between its sides. Around a bend, where facets are chords, both lean by chance.
+            let lean = normal + solid.normals[opposite.face as usize];
+            let along = straight.map_or(DVec3::ZERO, |straight| straight * straight.dot(lean));
+            let halfway = (normal - along / 2.0).normalize_or(normal);
+            let offset = halfway.dot(p - normal * (opposite.distance / 2.0));
+            let plane = Plane { normal: halfway, offset };
+            Some(Middle { plane, exact: None, thickness: opposite.distance })
         })
     }
 
@@ -249,6 +259,16 @@ impl Middles {
         }
         seen
     }
+}
+
+/// The direction in a facet in which its wall bends least: across that in which the normal behind its smooth edges differs most. `None` where
+/// it does not bend.
+fn straight_along(solid: &Solid, f: u32) -> Option<DVec3> {
+    let normal = solid.normals[f as usize];
+    let smooth = (3 * f..3 * f + 3).filter(|h| solid.fold_cosine(*h) > SHARP.cos());
+    let turns = smooth.map(|h| solid.normals[solid.across(h) as usize] - normal);
+    let most = turns.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))?;
+    (most.length() > BENT).then(|| normal.cross(most).normalize_or_zero())
 }
 
 /// Spreads thicknesses over the faces of a group from where they are known.
