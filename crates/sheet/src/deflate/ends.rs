@@ -91,7 +91,8 @@ pub(super) fn sides_of_low_things(segments: &Segments, borders: &Borders, thick:
 }
 
 /// Groups that are the ends of thinner walls, even if they have a partner: the sides of slats that are wider than thick. What is about
-/// both of them, across sharp edges that stick out, lies opposite to each other. O(n log n) in borders and pairs.
+/// both of them, across sharp edges that stick out, lies opposite to each other. O(n log n) in borders, and for every
+/// border of an end the pairs of what is beyond.
 pub(super) fn ends_of_thinner_walls(
     segments: &Segments,
     borders: &Borders,

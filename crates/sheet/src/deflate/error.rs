@@ -68,9 +68,9 @@ pub enum DeflateError {
         /// Faces without a partner, the largest first.
         unpaired: Vec<UnpairedFace>,
     },
-    /// A wall has one side only, so nothing tells which of its faces to keep.
-    #[error("a wall of {area:.1} mm² has one side only: from ({:.3}, {:.3}, {:.3}) its skin runs smoothly to its own back, as \
-        that of a Möbius strip does; cut the solid in two there", at.x, at.y, at.z)]
+    /// Both sides of a wall are one, so nothing tells which of its faces to keep.
+    #[error("both sides of a wall are one: from ({:.3}, {:.3}, {:.3}) its skin of {area:.1} mm² runs smoothly to its own back, as \
+        that of a Möbius strip does", at.x, at.y, at.z)]
     OneSided {
         /// The area of its skin, in mm².
         area: f64,

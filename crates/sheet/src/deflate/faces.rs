@@ -32,7 +32,7 @@ const PASSES: usize = 4;
 const MOSTLY: f64 = 0.9;
 const PIECE: f64 = 1e-2;
 const LEAST: f64 = 0.5;
-/// Nodes that a shape is fitted to, at most.
+/// A shape is fitted to less than twice as many flats.
 const FITTED: usize = 240;
 /// A flat leans by no more than this, in radians, from the shape at its middle.
 const LEAN: f64 = 35.0 / 180.0 * std::f64::consts::PI;
@@ -187,16 +187,16 @@ impl<'a> Growth<'a> {
         found.iter().map(|found| self.face(found)).collect()
     }
 
-    /// Gives facets to larger faces whose shapes they lie on: smaller ones that were met before may have taken them. O(n), and once more
-    /// for every time that a facet changes hands.
+    /// Gives flats to larger faces whose shapes they lie on as well as on their own: smaller ones that were met before may have taken them.
+    /// Faces are as large as they were before. O(n) in flats and their neighbours, and n log n in faces.
     fn give_back(&mut self, found: &mut Vec<Found>) {
         let mut owner = vec![NONE; self.taken.len()];
         for (k, face) in (0..).zip(&*found) {
             face.flats.iter().for_each(|flat| owner[self.place(*flat)] = k);
         }
         let mut order: Vec<u32> = (0..found.len() as u32).collect();
-        let area = |k: u32| found.get(k as usize).map_or(0.0, |f| f.area);
-        order.sort_by(|a, b| area(*b).total_cmp(&area(*a)).then(a.cmp(b)));
+        let size = |k: u32| found.get(k as usize).map_or(0.0, |face| face.area);
+        order.sort_by(|a, b| size(*b).total_cmp(&size(*a)).then(a.cmp(b)));
         let own = self.flats.of_group(self.group);
         for k in order {
             let face = &found[k as usize];
@@ -206,10 +206,13 @@ impl<'a> Growth<'a> {
             while let Some(flat) = stack.pop() {
                 for other in self.flats.beside(self.solid, flat).filter(|other| own.contains(other)) {
                     let place = self.place(other);
-                    if owner[place] != k
-                        && area(owner[place]) < face.area
-                        && self.is_on(&face.shape, tolerance, other)
-                    {
+                    if owner[place] == k || size(owner[place]) >= face.area {
+                        continue;
+                    }
+                    let before = found.get(owner[place] as usize).map(|face| self.off(&face.shape, other));
+                    let near =
+                        before.map_or(tolerance, |off| tolerance.min(off + ROUNDING * self.solid.size));
+                    if self.is_on(&face.shape, near, other) {
                         owner[place] = k;
                         self.taken[place] = true;
                         stack.push(other);
@@ -217,20 +220,35 @@ impl<'a> Growth<'a> {
                 }
             }
         }
-        found.iter_mut().for_each(|face| face.flats.clear());
-        for (flat, k) in own.zip(owner).filter(|(_, k)| *k != NONE) {
-            found[k as usize].flats.push(flat);
+        let mut pieces = Vec::new();
+        for first in own.clone() {
+            let k = std::mem::replace(&mut owner[self.place(first)], NONE);
+            let Some(face) = found.get(k as usize) else { continue };
+            let (mut flats, mut at) = (vec![first], 0);
+            while at < flats.len() {
+                for other in self.flats.beside(self.solid, flats[at]).filter(|other| own.contains(other)) {
+                    if owner[self.place(other)] == k {
+                        owner[self.place(other)] = NONE;
+                        flats.push(other);
+                    }
+                }
+                at += 1;
+            }
+            pieces.push(Found { shape: face.shape, area: self.area(&flats), flats });
         }
-        found.retain(|face| !face.flats.is_empty());
-        found.iter_mut().for_each(|face| face.area = self.area(&face.flats));
+        *found = pieces;
+    }
+
+    /// How far the corners of a flat are from a shape, at most.
+    fn off(&self, shape: &Shape, flat: u32) -> f64 {
+        let at = |v: u32| self.solid.mesh.positions[v as usize];
+        self.flats.corners(self.solid, flat).map(|v| shape.distance(at(v)).abs()).fold(0.0, f64::max)
     }
 
     /// Whether a flat lies on a shape.
     fn is_on(&self, shape: &Shape, tolerance: f64, flat: u32) -> bool {
-        let (solid, flats) = (self.solid, self.flats);
-        let mut distances =
-            flats.corners(solid, flat).map(|v| shape.distance(solid.mesh.positions[v as usize]));
-        distances.all(|d| d.abs() <= tolerance)
+        let flats = self.flats;
+        self.off(shape, flat) <= tolerance
             && shape.outward(flats.middle(flat)).dot(flats.normal(flat)).abs() > LEAN.cos()
     }
 

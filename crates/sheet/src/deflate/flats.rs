@@ -26,14 +26,21 @@ pub(super) struct Flats {
     of_group: Vec<u32>,
     /// Area in mm², area vector, middle.
     measures: Vec<(f64, DVec3, DVec3)>,
-    /// Of every flat, whether it is divided.
-    is_divided: Vec<bool>,
-    /// Of every node, whether it is a corner if what it is on is divided.
-    is_corner: Vec<bool>,
+    /// Of every flat, what it is if it is divided.
+    divided: Vec<Option<Divided>>,
+}
+
+/// A flat of many triangles.
+#[derive(Debug)]
+struct Divided {
+    /// Its corners; all its nodes if there are less than three: groups may have been cut across it.
+    corners: Vec<u32>,
+    /// The flats behind its edges.
+    beside: Vec<u32>,
 }
 
 impl Flats {
-    /// O(n).
+    /// O(n log n).
     pub(super) fn new(solid: &Solid, segments: &Segments) -> Self {
         let mut of = vec![NONE; solid.len() as usize];
         let mut of_group = vec![0];
@@ -74,16 +81,11 @@ impl Flats {
             triangles[*at as usize] = f;
             *at += 1;
         }
-        let mut flats = Self {
-            of,
-            starts,
-            triangles,
-            of_group,
-            measures: Vec::new(),
-            is_divided,
-            is_corner: corners(solid, &segments.plane_part),
-        };
+        let mut flats = Self { of, starts, triangles, of_group, measures: Vec::new(), divided: Vec::new() };
         let count = flats.starts.len() as u32 - 1;
+        let is_corner = corners(solid, &segments.plane_part);
+        let divided = |k: u32| is_divided[k as usize].then(|| flats.divided(solid, &is_corner, k));
+        flats.divided = (0..count).into_par_iter().map(divided).collect();
         flats.measures = (0..count).into_par_iter().map(|k| measures(solid, flats.triangles(k))).collect();
         flats
     }
@@ -98,18 +100,38 @@ impl Flats {
         &self.triangles[self.starts[flat as usize] as usize..self.starts[flat as usize + 1] as usize]
     }
 
-    /// The flats behind the edges of one; with repetitions, those of plane groups left out.
-    pub(super) fn beside(&self, solid: &Solid, flat: u32) -> impl Iterator<Item = u32> {
+    fn divided(&self, solid: &Solid, is_corner: &[bool], flat: u32) -> Divided {
+        let mut nodes: Vec<u32> =
+            self.triangles(flat).iter().flat_map(|f| solid.mesh.faces[*f as usize]).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let corners: Vec<u32> = nodes.iter().copied().filter(|v| is_corner[*v as usize]).collect();
+        let mut beside: Vec<u32> = self.behind_edges(solid, flat).collect();
+        beside.sort_unstable();
+        beside.dedup();
+        Divided { corners: if corners.len() < 3 { nodes } else { corners }, beside }
+    }
+
+    fn behind_edges(&self, solid: &Solid, flat: u32) -> impl Iterator<Item = u32> {
         let sides = self.triangles(flat).iter().flat_map(|f| 3 * f..3 * f + 3);
         let others = sides.map(|h| self.of[solid.across(h) as usize]);
         others.filter(move |other| *other != flat && *other != NONE)
     }
 
-    /// The corners of a flat, with repetitions.
+    /// The flats behind the edges of one, those of plane groups left out.
+    pub(super) fn beside(&self, solid: &Solid, flat: u32) -> impl Iterator<Item = u32> {
+        let divided = self.divided[flat as usize].as_ref();
+        let known = divided.map(|divided| divided.beside.iter().copied());
+        let own = divided.is_none().then(|| self.behind_edges(solid, flat));
+        known.into_iter().flatten().chain(own.into_iter().flatten())
+    }
+
+    /// The corners of a flat.
     pub(super) fn corners(&self, solid: &Solid, flat: u32) -> impl Iterator<Item = u32> {
-        let nodes = self.triangles(flat).iter().flat_map(|f| solid.mesh.faces[*f as usize]);
-        let every = !self.is_divided[flat as usize];
-        nodes.filter(move |v| every || self.is_corner[*v as usize])
+        let divided = self.divided[flat as usize].as_ref();
+        let known = divided.map(|divided| divided.corners.iter().copied());
+        let own = divided.is_none().then(|| solid.mesh.faces[self.triangles(flat)[0] as usize]);
+        known.into_iter().flatten().chain(own.into_iter().flatten())
     }
 
     /// Area in mm².

@@ -24,6 +24,8 @@ const INSET: f64 = 0.1;
 
 /// A facet bends if its normal differs by more than this from that of a neighbour.
 const BENT: f64 = 1e-4;
+/// It does not bend in the other direction if it does so by less than this share.
+const STRAIGHT: f64 = 0.1;
 
 /// The middle of a wall at a corner of a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -207,7 +209,7 @@ impl Middles {
             let exact = self.between(group, pair.partner).map(|b| b.1);
             return [Some(Middle { plane, exact, thickness: pair.thickness }); 3];
         }
-        let straight = straight_along(solid, f);
+        let straight = straight_along(solid, segments, f);
         solid.mesh.corners(f).map(|corner| {
             let p = corner.lerp(middle, INSET);
             // Behind a fillet the wall is thicker than it is.
@@ -221,9 +223,9 @@ impl Middles {
                 return Some(Middle { plane, exact: Some(number), thickness });
             }
             // A wall with draft lies aslant between its sides. Around a bend, where facets are chords, both lean by chance.
+            let straight = straight.unwrap_or(DVec3::ZERO);
             let lean = normal + solid.normals[opposite.face as usize];
-            let along = straight.map_or(DVec3::ZERO, |straight| straight * straight.dot(lean));
-            let halfway = (normal - along / 2.0).normalize_or(normal);
+            let halfway = (normal - straight * straight.dot(lean) / 2.0).normalize_or(normal);
             let offset = halfway.dot(p - normal * (opposite.distance / 2.0));
             let plane = Plane { normal: halfway, offset };
             Some(Middle { plane, exact: None, thickness: opposite.distance })
@@ -261,14 +263,18 @@ impl Middles {
     }
 }
 
-/// The direction in a facet in which its wall bends least: across that in which the normal behind its smooth edges differs most. `None` where
-/// it does not bend.
-fn straight_along(solid: &Solid, f: u32) -> Option<DVec3> {
+/// The direction in a facet along which its wall does not bend: across that in which the normals behind its smooth edges differ most. `None`
+/// where the wall does not bend at all, or in both directions.
+fn straight_along(solid: &Solid, segments: &Segments, f: u32) -> Option<DVec3> {
     let normal = solid.normals[f as usize];
-    let smooth = (3 * f..3 * f + 3).filter(|h| solid.fold_cosine(*h) > SHARP.cos());
-    let turns = smooth.map(|h| solid.normals[solid.across(h) as usize] - normal);
-    let most = turns.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))?;
-    (most.length() > BENT).then(|| normal.cross(most).normalize_or_zero())
+    let is_own =
+        |h: &u32| segments.of(solid.across(*h)) == segments.of(f) && solid.fold_cosine(*h) > SHARP.cos();
+    let turn = |h: u32| solid.normals[solid.across(h) as usize] - normal;
+    let turns = || (3 * f..3 * f + 3).filter(is_own).map(turn);
+    let most = turns().max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))?;
+    let straight = normal.cross(most).normalize_or_zero();
+    let is_straight = || turns().all(|turn| turn.dot(straight).abs() < STRAIGHT * most.length());
+    (most.length() > BENT && is_straight()).then_some(straight)
 }
 
 /// Spreads thicknesses over the faces of a group from where they are known.

@@ -127,19 +127,27 @@ pub(super) fn kept_groups(
     kept
 }
 
-/// How wide the levels of each group are together, but for one: where the other side of a round wall steps, what looks at it from there
+/// How wide the levels of each group are together, but for the widest: where the other side of a round wall steps, what looks at it from there
 /// knows, and its own facets need not. O(n log n) in pairs.
 fn widths_of_levels(segments: &Segments, walls: &Walls) -> Vec<f64> {
     let is_level = |p: &&Pair| {
-        p.area > SEEN_WHOLE * segments.group(p.group).area && p.area.sqrt() > BROADER * p.thickness
+        let whole = p.group != p.partner && p.area > SEEN_WHOLE * segments.group(p.group).area;
+        whole && p.area.sqrt() > BROADER * p.thickness
     };
     let mut seen: Vec<&Pair> = walls.pairs.iter().filter(is_level).collect();
     seen.sort_by(|a, b| a.partner.cmp(&b.partner).then(a.thickness.total_cmp(&b.thickness)));
     let mut widths = vec![0.0; segments.groups.len()];
-    for two in seen.windows(2).filter(|two| two[0].partner == two[1].partner) {
-        if two[1].thickness > LEVEL * two[0].thickness {
-            widths[two[0].partner as usize] += two[0].area.min(two[1].area).sqrt();
+    for run in seen.chunk_by(|a, b| a.partner == b.partner) {
+        // The thinnest of a level, and its area.
+        let mut levels: Vec<(f64, f64)> = Vec::new();
+        for pair in run {
+            match levels.last_mut() {
+                Some((thin, area)) if pair.thickness <= LEVEL * *thin => *area += pair.area,
+                _ => levels.push((pair.thickness, pair.area)),
+            }
         }
+        let all = levels.iter().map(|level| level.1.sqrt());
+        widths[run[0].partner as usize] = all.clone().sum::<f64>() - all.fold(0.0, f64::max);
     }
     widths
 }
@@ -166,7 +174,7 @@ fn keep_sides_with_signs(walls: &Walls, mids: &[Vec<Plane>], kept: &mut [bool]) 
 
 /// Creases of two sides differ if their lengths do by this many thicknesses.
 const DIFFERENT: f64 = 0.1;
-/// Edges to a wall that stands on a curved one weigh so much more than others.
+/// Edges to a wall that stands on a curved one, and levels of curved ones, weigh so much more than others.
 const STOOD_ON: f64 = 10.0;
 /// Or hardly, if by less than so many.
 const HARDLY: f64 = 10.0;
