@@ -6,8 +6,8 @@ mod solid_models;
 
 use std::f64::consts::{PI, TAU};
 
+use mesh_kernel::TriMesh;
 use mesh_kernel::glam::DVec3;
-use mesh_kernel::{Group, TriMesh};
 use sheet::deflate::{DeflateOptions, Nobody, deflate};
 use solid_models::turned;
 
@@ -58,40 +58,6 @@ fn a_collar_stays_however_its_sides_are_meshed() {
             assert_eq!((r.self_intersections, r.lost_edges), (0, 0), "{what}");
             let area = PI * (48.0f64.powi(2) - 15.0 * 15.0) + TAU * 15.0 * 12.0;
             assert!((r.area / area - 1.0).abs() < 0.02, "{what}: {} mm² of {area}", r.area);
-        }
-    }
-}
-
-/// A boss the outside of which slants while its bore does not, on a plate that goes on within it: both parts of the plate and the boss meet
-/// in one circle, halfway between its sides at the middle of the plate.
-#[test]
-fn a_boss_with_draft_stands_on_one_joint() {
-    for (inner, outer) in [(156, 156), (100, 156), (60, 48)] {
-        let (foot, top, high) = (6.6, 5.4, 12.0);
-        let solid = rings(&[
-            (30.0, 0.0, outer),
-            (30.0, 2.2, outer),
-            (foot, 2.2, outer),
-            (top, high, outer),
-            (4.0, high, inner),
-            (4.0, 2.2, inner),
-            (1.0, 2.2, inner),
-            (1.0, 0.0, inner),
-        ]);
-        for solid in [&solid, &turned(&solid)] {
-            let thin = deflate(solid, &DeflateOptions::default(), &Nobody).unwrap();
-            let (r, what) = (&thin.report, format!("{inner} chords inside, {outer} outside"));
-            assert_eq!([r.patches, r.joints, r.free_loops, r.components], [3, 1, 3, 1], "{what}");
-            assert_eq!((r.self_intersections, r.lost_edges), (0, 0), "{what}");
-            let [foot, top] =
-                [foot + (foot - top) * 1.1 / (high - 2.2), top].map(|outside| (outside + 4.0) / 2.0);
-            let boss = PI * (foot + top) * (high - 1.1).hypot(foot - top);
-            // The part of the plate within it is smaller, the one around it larger.
-            let patch =
-                |group: &Group| group.faces.clone().map(|f| thin.sheet.area_normal(f).length() / 2.0).sum();
-            let mut patches: Vec<f64> = thin.sheet.groups.iter().map(patch).collect();
-            patches.sort_by(f64::total_cmp);
-            assert!((patches[1] / boss - 1.0).abs() < 0.005, "{what}: {} mm² of {boss}", patches[1]);
         }
     }
 }

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::plane::{Plane, PlaneTable};
 use super::segments::Segments;
-use super::solid::{SHARP, Solid};
+use super::solid::Solid;
 use super::walls::{Opposite, Walls};
 
 /// A partner counts if it covers this share of a wall.
@@ -21,11 +21,6 @@ const STEP: f64 = 0.01;
 const ALIGNED: f64 = 0.999;
 /// Looks through the material at a corner begin this far from it towards the middle of the face.
 const INSET: f64 = 0.1;
-
-/// A facet bends if its normal differs by more than this from that of a neighbour.
-const BENT: f64 = 1e-4;
-/// It does not bend in the other direction if it does so by less than this share.
-const STRAIGHT: f64 = 0.1;
 
 /// The middle of a wall at a corner of a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -209,26 +204,19 @@ impl Middles {
             let exact = self.between(group, pair.partner).map(|b| b.1);
             return [Some(Middle { plane, exact, thickness: pair.thickness }); 3];
         }
-        let straight = straight_along(solid, segments, f);
         solid.mesh.corners(f).map(|corner| {
             let p = corner.lerp(middle, INSET);
             // Behind a fillet the wall is thicker than it is.
             let wall = |o: &Opposite| walls.is_wall[segments.of(o.face) as usize];
-            let beside = walls.opposite(solid, segments, f, p).filter(wall).map(|opposite| (p, opposite));
-            let at_middle = || walls.opposite_middle(solid, segments, f).filter(wall).map(|o| (middle, o));
-            let (p, opposite) = beside.or_else(at_middle)?;
+            let opposite = walls.opposite(solid, segments, f, p).filter(wall);
+            let opposite = opposite.or_else(|| walls.opposite_middle(solid, segments, f).filter(wall))?;
             let partner = segments.of(opposite.face);
             if let Some((plane, number)) = self.between(group, partner) {
                 let thickness = opposite.distance;
                 return Some(Middle { plane, exact: Some(number), thickness });
             }
-            // A wall with draft lies aslant between its sides. Around a bend, where facets are chords, both lean by chance.
-            let straight = straight.unwrap_or(DVec3::ZERO);
-            let lean = normal + solid.normals[opposite.face as usize];
-            let halfway = (normal - straight * straight.dot(lean) / 2.0).normalize_or(normal);
-            let offset = halfway.dot(p - normal * (opposite.distance / 2.0));
-            let plane = Plane { normal: halfway, offset };
-            Some(Middle { plane, exact: None, thickness: opposite.distance })
+            let offset = normal.dot(corner) - opposite.distance / 2.0;
+            Some(Middle { plane: Plane { normal, offset }, exact: None, thickness: opposite.distance })
         })
     }
 
@@ -261,20 +249,6 @@ impl Middles {
         }
         seen
     }
-}
-
-/// The direction in a facet along which its wall does not bend: across that in which the normals behind its smooth edges differ most. `None`
-/// where the wall does not bend at all, or in both directions.
-fn straight_along(solid: &Solid, segments: &Segments, f: u32) -> Option<DVec3> {
-    let normal = solid.normals[f as usize];
-    let is_own =
-        |h: &u32| segments.of(solid.across(*h)) == segments.of(f) && solid.fold_cosine(*h) > SHARP.cos();
-    let turn = |h: u32| solid.normals[solid.across(h) as usize] - normal;
-    let turns = || (3 * f..3 * f + 3).filter(is_own).map(turn);
-    let most = turns().max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))?;
-    let straight = normal.cross(most).normalize_or_zero();
-    let is_straight = || turns().all(|turn| turn.dot(straight).abs() < STRAIGHT * most.length());
-    (most.length() > BENT && is_straight()).then_some(straight)
 }
 
 /// Spreads thicknesses over the faces of a group from where they are known.
