@@ -24,7 +24,7 @@ pub(super) struct Flats {
     triangles: Vec<u32>,
     /// The first flat of every group.
     of_group: Vec<u32>,
-    /// Area in mm², area vector, middle.
+    /// Area in mm², unit normal, middle.
     measures: Vec<(f64, DVec3, DVec3)>,
     /// Of every flat, what it is if it is divided.
     divided: Vec<Option<Divided>>,
