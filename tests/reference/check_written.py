@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Reads the files that `TOILE_WRITE_FILES=DIR cargo test -p mesh_kernel --test files_reference` writes with trimesh and
+"""Reads the files that `TOILE_WRITE_FILES=DIR cargo test -p mesh_kernel --test all files::reference` writes with trimesh and
 pymeshlab, and compares corners with the OBJ among them as trimesh reads it.
 
     python tests/reference/check_written.py DIR

@@ -8,9 +8,10 @@ use mesh_kernel::TriMesh;
 use mesh_kernel::glam::{DQuat, DVec3};
 use mesh_kernel::merge::{Boolean, MergeOptions, boolean};
 
-#[path = "../tests/query_shapes/mod.rs"]
-mod query_shapes;
-use query_shapes::torus;
+#[allow(dead_code, reason = "the tests use more of it")]
+#[path = "../tests/all/shapes.rs"]
+mod shapes;
+use shapes::torus;
 
 /// Pairs that cross a little, along long curves, and nowhere.
 fn pairs() -> [(&'static str, TriMesh, TriMesh); 3] {

@@ -5,9 +5,10 @@ use mesh_kernel::TriMesh;
 use mesh_kernel::glam::DVec3;
 use mesh_kernel::query::{ClosestPoint, Crossings, Geodesics, SectionStack, SignedDistance};
 
-#[path = "../tests/query_shapes/mod.rs"]
-mod query_shapes;
-use query_shapes::{Random, shared_body, torus};
+#[allow(dead_code, reason = "the tests use more of it")]
+#[path = "../tests/all/shapes.rs"]
+mod shapes;
+use shapes::{Random, shared_body, torus};
 
 /// Meshes in metres.
 fn meshes() -> Vec<(&'static str, TriMesh)> {

@@ -1,7 +1,8 @@
 //! Journal files, read and carried out: operators on whatever a file asks for.
 
 // The generators of random bodies and operators are the kernel's own tests'.
-#[path = "../../../../crates/mesh_kernel/tests/body_support/mod.rs"]
+#[allow(dead_code, clippy::unwrap_used, reason = "the kernel tests use more of it, and may fail")]
+#[path = "../../../../crates/mesh_kernel/tests/all/body/support/mod.rs"]
 mod body_support;
 
 use body_support::operations::Source;

@@ -34,8 +34,8 @@
 //!
 //! # High-level operators as sequences (K4; Wang et al., table 3)
 //!
-//! Each of these sequences gives the body that the operator gives, bit for bit, numbers included (`tests/body_sequences.rs`
-//! carries them out). n is the number of faces at the edge.
+//! Each of these sequences gives the body that the operator gives, bit for bit, numbers included
+//! (`tests/all/body/sequences.rs` carries them out). n is the number of faces at the edge.
 //!
 //! | operator | sequence | v | e | f |
 //! |---|---|---|---|---|

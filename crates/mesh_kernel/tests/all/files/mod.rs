@@ -1,0 +1,5 @@
+//! Reading and writing mesh files.
+
+mod formats;
+mod obj;
+mod reference;

@@ -1,0 +1,6 @@
+//! Booleans of solids.
+
+mod boolean;
+mod degenerate;
+mod models;
+mod support;

@@ -1,0 +1,59 @@
+//! Round walls whose two sides are meshed each in its own way, on plates: collars of holes.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::deflate::solid_models::turned;
+use mesh_kernel::TriMesh;
+use mesh_kernel::glam::DVec3;
+use sheet::deflate::{DeflateOptions, Nobody, deflate};
+
+/// Rings about z, each joined to the next one and the last to the first: radius, height, and how many nodes.
+fn rings(sections: &[(f64, f64, u32)]) -> TriMesh {
+    let mut mesh = TriMesh::default();
+    let mut starts = Vec::new();
+    for (radius, z, nodes) in sections {
+        starts.push(mesh.positions.len() as u32);
+        let at = |k: u32| TAU * f64::from(k) / f64::from(*nodes);
+        mesh.positions
+            .extend((0..*nodes).map(|k| DVec3::new(radius * at(k).cos(), radius * at(k).sin(), *z)));
+    }
+    for k in 0..sections.len() {
+        let next = (k + 1) % sections.len();
+        let ((a, n), (b, m)) = ((starts[k], sections[k].2), (starts[next], sections[next].2));
+        let (mut i, mut j) = (0, 0);
+        while i < n || j < m {
+            if j == m || (i < n && (i + 1) * m <= (j + 1) * n) {
+                mesh.faces.push([a + i, a + (i + 1) % n, b + j % m]);
+                i += 1;
+            } else {
+                mesh.faces.push([a + i % n, b + (j + 1) % m, b + j]);
+                j += 1;
+            }
+        }
+    }
+    mesh
+}
+
+/// The flat facets of the disc have facets opposite to them, those of the collar do not: the collar must not be left out for that.
+#[test]
+fn a_collar_stays_however_its_sides_are_meshed() {
+    for (inner, outer) in [(27, 29), (24, 31), (16, 37), (40, 29)] {
+        let rim = 96;
+        let solid = rings(&[
+            (48.0, 0.0, rim),
+            (48.0, 2.0, rim),
+            (16.0, 2.0, outer),
+            (16.0, 13.0, outer),
+            (14.0, 13.0, inner),
+            (14.0, 0.0, inner),
+        ]);
+        for solid in [&solid, &turned(&solid)] {
+            let thin = deflate(solid, &DeflateOptions::default(), &Nobody).unwrap();
+            let (r, what) = (&thin.report, format!("{inner} chords inside, {outer} outside"));
+            assert_eq!([r.patches, r.joints, r.free_loops, r.components], [2, 0, 2, 1], "{what}");
+            assert_eq!((r.self_intersections, r.lost_edges), (0, 0), "{what}");
+            let area = PI * (48.0f64.powi(2) - 15.0 * 15.0) + TAU * 15.0 * 12.0;
+            assert!((r.area / area - 1.0).abs() < 0.02, "{what}: {} mm² of {area}", r.area);
+        }
+    }
+}

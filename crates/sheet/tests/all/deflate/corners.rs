@@ -1,0 +1,227 @@
+//! Boxes whose rounds outside and fillets inside have centres of their own: the corners are thicker or thinner than the walls.
+
+use std::collections::BTreeMap;
+use std::f64::consts::FRAC_PI_4;
+
+use crate::deflate::solid_models::turned;
+use mesh_kernel::TriMesh;
+use mesh_kernel::glam::DVec3;
+use mesh_kernel::query::Adjacency;
+use sheet::deflate::{DeflateOptions, Nobody, Shape, deflate};
+
+const HALF: DVec3 = DVec3::new(40.0, 30.0, 15.0);
+const WALL: f64 = 2.0;
+
+/// Where grids are cut along one axis: half a round in `chords` at the low end, and at the high end unless it is `open`.
+fn cuts(half: f64, radius: f64, chords: u32, open: bool) -> Vec<f64> {
+    let round = |k: u32| half - radius + radius * (FRAC_PI_4 * f64::from(k) / f64::from(chords)).tan();
+    let low = (0..=chords).rev().map(|k| -round(k));
+    let high = if open { vec![half] } else { (0..=chords).map(round).collect() };
+    low.chain(high).collect()
+}
+
+/// The skin of a box about the origin without its top, with round edges; and the nodes of its rim in a row.
+fn skin(half: DVec3, radius: f64, chords: u32) -> (TriMesh, Vec<u32>) {
+    let [x, y, z] =
+        [(half.x, false), (half.y, false), (half.z, true)].map(|(h, open)| cuts(h, radius, chords, open));
+    let mut mesh = TriMesh::new(Vec::new(), Vec::new());
+    let mut numbers: BTreeMap<[i64; 3], u32> = BTreeMap::new();
+    let mut node = |mesh: &mut TriMesh, q: DVec3| {
+        let straight = half - radius;
+        let core = q.clamp(-straight, DVec3::new(straight.x, straight.y, half.z));
+        let p = core + (q - core).normalize() * radius;
+        *numbers.entry(p.to_array().map(|c| (c * 1e7).round() as i64)).or_insert_with(|| {
+            mesh.positions.push(p);
+            mesh.positions.len() as u32 - 1
+        })
+    };
+    let mut grid = |mesh: &mut TriMesh, u: &[f64], v: &[f64], at: &dyn Fn(f64, f64) -> DVec3| {
+        for i in 1..u.len() {
+            for j in 1..v.len() {
+                let corners = [(i - 1, j - 1), (i, j - 1), (i, j), (i - 1, j)];
+                let [a, b, c, d] = corners.map(|(i, j)| node(mesh, at(u[i], v[j])));
+                mesh.faces.extend([[a, b, c], [a, c, d]]);
+            }
+        }
+    };
+    grid(&mut mesh, &y, &z, &|y, z| DVec3::new(half.x, y, z));
+    grid(&mut mesh, &y, &z, &|y, z| DVec3::new(-half.x, -y, z));
+    grid(&mut mesh, &x, &z, &|x, z| DVec3::new(x, -half.y, z));
+    grid(&mut mesh, &x, &z, &|x, z| DVec3::new(-x, half.y, z));
+    grid(&mut mesh, &x, &y, &|x, y| DVec3::new(-x, y, -half.z));
+    let sides = [
+        y.iter().map(|y| DVec3::new(half.x, *y, half.z)).collect::<Vec<_>>(),
+        x.iter().rev().map(|x| DVec3::new(*x, half.y, half.z)).collect(),
+        y.iter().rev().map(|y| DVec3::new(-half.x, *y, half.z)).collect(),
+        x.iter().map(|x| DVec3::new(*x, -half.y, half.z)).collect(),
+    ];
+    let mut rim: Vec<u32> = sides.concat().into_iter().map(|q| node(&mut mesh, q)).collect();
+    rim.dedup();
+    rim.pop();
+    (mesh, rim)
+}
+
+/// An open box with rounds outside and fillets inside.
+fn rounded_box(outer: f64, inner: f64, chords: u32) -> TriMesh {
+    let (mut mesh, rim) = skin(HALF, outer, chords);
+    let up = DVec3::Z * (WALL / 2.0);
+    let (within, inner_rim) = skin(HALF - DVec3::new(WALL, WALL, WALL / 2.0), inner, chords);
+    let n = mesh.positions.len() as u32;
+    mesh.positions.extend(within.positions.iter().map(|p| *p + up));
+    mesh.faces.extend(within.faces.iter().map(|[a, b, c]| [n + a, n + c, n + b]));
+    for k in 0..rim.len() {
+        let next = (k + 1) % rim.len();
+        let [a, b, c, d] = [rim[k], rim[next], n + inner_rim[next], n + inner_rim[k]];
+        mesh.faces.extend([[a, b, c], [a, c, d]]);
+    }
+    mesh
+}
+
+/// An open box that is sharp outside, with fillets in its upright edges inside and others around its floor.
+fn cast_box(upright: f64, about_floor: f64, chords: u32) -> TriMesh {
+    let signs = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
+    let corner = |k: usize, z: f64| DVec3::new(HALF.x * signs[k][0], HALF.y * signs[k][1], z);
+    let mut mesh = TriMesh::new(Vec::new(), Vec::new());
+    for z in [-HALF.z, HALF.z] {
+        mesh.positions.extend((0..4).map(|k| corner(k, z)));
+    }
+    mesh.faces.extend([[0, 2, 1], [0, 3, 2]]);
+    for k in 0..4 {
+        let next = (k + 1) % 4;
+        mesh.faces.extend([[k, next, next + 4], [k, next + 4, k + 4]]);
+    }
+    // Rings of nodes from the rim down to the floor, a quarter of a circle in every corner.
+    let floor = WALL - HALF.z;
+    let quarter = |k: u32| std::f64::consts::FRAC_PI_2 * f64::from(k) / f64::from(chords);
+    let down = (0..=chords)
+        .map(quarter)
+        .map(|a| (about_floor * (1.0 - a.cos()), floor + about_floor * (1.0 - a.sin())));
+    let levels: Vec<(f64, f64)> = std::iter::once((0.0, HALF.z)).chain(down).collect();
+    let per_ring = 4 * (chords + 1);
+    for (inset, z) in &levels {
+        for side in 0..4 {
+            let straight = HALF - WALL - upright;
+            let centre =
+                DVec3::new(straight.x * signs[side as usize][0], straight.y * signs[side as usize][1], *z);
+            mesh.positions.extend((0..=chords).map(|k| {
+                let angle = quarter(side * chords + k);
+                centre + (upright - inset) * DVec3::new(angle.cos(), angle.sin(), 0.0)
+            }));
+        }
+    }
+    let node = |ring: u32, k: u32| 8 + ring * per_ring + k % per_ring;
+    for k in 0..per_ring {
+        let side = k / (chords + 1);
+        let (a, b) = (node(0, k), node(0, k + 1));
+        mesh.faces.push([4 + side, b, a]);
+        if k % (chords + 1) == chords {
+            mesh.faces.push([4 + side, 4 + (side + 1) % 4, b]);
+        }
+        for ring in 1..levels.len() as u32 {
+            let (c, d) = (node(ring, k), node(ring, k + 1));
+            let (a, b) = (node(ring - 1, k), node(ring - 1, k + 1));
+            mesh.faces.extend([[a, b, d], [a, d, c]]);
+        }
+        let last = levels.len() as u32 - 1;
+        if k > 0 && k + 1 < per_ring {
+            mesh.faces.push([node(last, 0), node(last, k), node(last, k + 1)]);
+        }
+    }
+    mesh
+}
+
+/// How far the rim of a box lies off the middle of its walls, farther than its rounds are from its corners, in mm.
+fn rim_off(sheet: &TriMesh, rounds: f64) -> f64 {
+    let loops = Adjacency::new(sheet).boundary_loops();
+    let rim = loops.iter().flatten().map(|v| sheet.positions[*v as usize]);
+    let off = rim.filter_map(|p| {
+        let off = (HALF - WALL / 2.0 - p.abs()).abs();
+        match [p.x.abs() < HALF.x - rounds, p.y.abs() < HALF.y - rounds] {
+            [true, false] => Some(off.y),
+            [false, true] => Some(off.x),
+            _ => None,
+        }
+    });
+    off.fold(0.0, f64::max)
+}
+
+#[test]
+fn corners_of_other_centres_are_one_sheet() {
+    for (outer, inner, chords) in [
+        (2.0, 1.0, 4),
+        (3.0, 2.0, 4),
+        (4.0, 1.0, 5),
+        (5.0, 5.0, 3),
+        (8.0, 7.0, 4),
+        (3.0, 2.0, 12),
+        (4.0, 0.5, 12),
+        (5.0, 1.0, 14),
+        (8.0, 7.0, 16),
+        (8.0, 5.0, 12),
+    ] {
+        let what = format!("rounds {outer}, fillets {inner} in {chords}");
+        let solid = rounded_box(outer, inner, chords);
+        for (lies_turned, solid) in [(false, &solid), (true, &turned(&solid))] {
+            let thin = deflate(solid, &DeflateOptions::default(), &Nobody).unwrap();
+            let r = &thin.report;
+            let topology = [r.patches, r.joints, r.free_loops, r.components];
+            assert_eq!(topology, [1, 0, 1, 1], "{what}: {:?}", r.features);
+            assert_eq!((r.self_intersections, r.lost_edges), (0, 0), "{what}");
+            let sheet: f64 =
+                (0..).zip(&thin.thickness).map(|(f, t)| thin.sheet.area_normal(f).length() / 2.0 * t).sum();
+            if !lies_turned {
+                let off = rim_off(&thin.sheet, outer.max(inner + WALL));
+                assert!(off < 1e-3 * WALL, "{what}: the rim is {off} mm off the middle of its walls");
+            }
+            assert!(
+                (sheet / r.solid_volume - 1.0).abs() < 0.01,
+                "{what}: {} of the volume",
+                sheet / r.solid_volume
+            );
+        }
+    }
+}
+
+#[test]
+fn specks_of_a_fine_tessellation_are_no_plane_faces() {
+    for (outer, inner, chords) in [(3.0, 2.0, 20), (4.0, 0.5, 16)] {
+        let mut solid = rounded_box(outer, inner, chords);
+        // Some facets of the corners are cut in three where they lie.
+        for f in (0..solid.faces.len()).step_by(5) {
+            if solid.area_normal(f as u32).length() < 0.03 {
+                let [a, b, c] = solid.faces[f];
+                let middle = solid.positions.len() as u32;
+                let [p, q, r] = solid.corners(f as u32);
+                solid.positions.push((p + q + r) / 3.0);
+                solid.faces[f] = [a, b, middle];
+                solid.faces.extend([[b, c, middle], [c, a, middle]]);
+            }
+        }
+        let thin = deflate(&solid, &DeflateOptions::default(), &Nobody).unwrap();
+        let r = &thin.report;
+        let what = format!("rounds {outer}, fillets {inner} in {chords}");
+        assert_eq!((r.self_intersections, r.lost_edges), (0, 0), "{what}");
+        assert_eq!([r.patches, r.joints, r.free_loops, r.components], [1, 0, 1, 1], "{what}");
+        let planes = r.faces.iter().filter(|f| matches!(f.shape, Shape::Plane { .. })).count();
+        assert_eq!(planes, 11, "{what}: two sides of a floor and four walls, and the rim");
+    }
+}
+
+#[test]
+fn fillets_of_two_radii_leave_no_hole_where_they_meet() {
+    for (upright, about_floor, chords) in
+        [(6.0, 3.0, 3), (6.0, 3.0, 4), (9.0, 2.0, 12), (5.0, 4.5, 5), (4.0, 1.0, 7)]
+    {
+        let what = format!("upright {upright}, about the floor {about_floor}, in {chords}");
+        let solid = cast_box(upright, about_floor, chords);
+        for solid in [&solid, &turned(&solid)] {
+            let thin = deflate(solid, &DeflateOptions::default(), &Nobody).unwrap();
+            let r = &thin.report;
+            assert_eq!([r.patches, r.joints, r.free_loops, r.components], [5, 0, 1, 1], "{what}");
+            assert_eq!((r.self_intersections, r.lost_edges), (0, 0), "{what}");
+            let [a, b, h] = (2.0 * HALF - WALL * DVec3::new(1.0, 1.0, 0.5)).to_array();
+            let wanted = a * b + 2.0 * (a + b) * h;
+            assert!((r.area / wanted - 1.0).abs() < 1e-6, "{what}: {} mm² of {wanted}", r.area);
+        }
+    }
+}

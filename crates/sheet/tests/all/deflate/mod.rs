@@ -1,0 +1,16 @@
+//! Thin solids and the mid-surfaces that they become.
+
+mod collars;
+mod corners;
+mod divided;
+mod embossed;
+mod folded;
+mod plates;
+mod rim_support;
+mod rims;
+mod rounded_files;
+mod shells;
+mod sides;
+mod solid_models;
+mod support;
+mod whole;

@@ -1,0 +1,5 @@
+//! Modelling functions of sheets.
+
+mod experiments;
+mod functions;
+mod support;

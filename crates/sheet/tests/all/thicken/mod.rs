@@ -1,0 +1,5 @@
+//! Sheets made thick.
+
+mod chain;
+mod sheet_models;
+mod solids;

@@ -1,0 +1,5 @@
+//! Bends, and sheets laid flat.
+
+mod bends;
+mod plates;
+mod support;
