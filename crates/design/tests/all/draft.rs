@@ -262,7 +262,7 @@ fn a_child_that_works_until_it_is_killed() {
 fn a_kill_loses_less_than_five_seconds_of_work() {
     let folder = tempfile::tempdir().unwrap();
     let mut child = std::process::Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", "a_child_that_works_until_it_is_killed"])
+        .args(["--exact", "draft::a_child_that_works_until_it_is_killed"])
         .env(CHILD, folder.path())
         .stdout(std::process::Stdio::null())
         .spawn()
