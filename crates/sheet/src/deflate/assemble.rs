@@ -62,6 +62,8 @@ pub(super) struct Moved {
     pub(super) soft: Vec<bool>,
     /// Whether a node is on a blend and belongs to what is behind that.
     pub(super) blended: Vec<bool>,
+    /// Whether a node is where a wall is nothing but the end of another.
+    pub(super) flush: Vec<bool>,
 }
 
 /// Makes the mid-surface. `gone`: groups that it is made without, as if walls went on below. O(n log n).

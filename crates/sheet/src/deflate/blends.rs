@@ -154,9 +154,10 @@ impl Blends {
         for (group, nearest) in nearest {
             let border = &borders[&group];
             for (node, (_, at)) in nearest {
-                // Along the edges tells which one; how far it is, the straight line to the border there.
-                let ends = border.get(&at).map_or(&[][..], Vec::as_slice);
+                // Along the edges tells which one, about; how far it is, the straight line to the border there.
                 let p = position(node);
+                let at = nearest_along(border, at, |v| p.distance(position(v)));
+                let ends = border.get(&at).map_or(&[][..], Vec::as_slice);
                 let points = ends.iter().map(|end| on_segment(p, position(at), position(*end)));
                 let Some(point) = points.min_by(|a, b| p.distance(*a).total_cmp(&p.distance(*b))) else {
                     continue;
@@ -359,6 +360,18 @@ fn group_normal_at(solid: &Solid, segments: &Segments, star: &Star, b: &Belongs)
     }
     let about = star.of(b.at).iter().map(|c| c / 3).filter(|f| segments.of(*f) == b.group);
     about.map(|f| solid.normals[f as usize]).sum::<DVec3>().normalize_or_zero()
+}
+
+/// The node that one comes to from `at` along a border as long as it gets nearer. Edges of a fine fillet may all slant the same way, and lead
+/// far aside.
+fn nearest_along(border: &Border, mut at: u32, distance: impl Fn(u32) -> f64) -> u32 {
+    while let Some(next) = border.get(&at).and_then(|ends| {
+        let nearer = ends.iter().copied().filter(|end| distance(*end) < distance(at));
+        nearer.min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
+    }) {
+        at = next;
+    }
+    at
 }
 
 /// The point of a line between two others that is nearest to one.

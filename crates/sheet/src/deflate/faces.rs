@@ -4,11 +4,15 @@
 //! A smooth group may be many faces that run into each other: a cylinder, a sphere in the corner, another cylinder. From some flat
 //! shapes are fitted to its surroundings, grown as far as nodes lie on them, and the one that reaches farthest is a face.
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
 use super::fit::Cloud;
 use super::flats::Flats;
+use super::plane::Plane;
+use super::regions::{WIDER, mean_plane, width};
 use super::segments::Segments;
 use super::shape::Shape;
 use super::solid::Solid;
@@ -20,6 +24,8 @@ const BULGE: f64 = 1e-3;
 const MANY: usize = 30;
 /// Flats fitted at first: as many as will do, or fewer where faces are narrow.
 const SURROUNDINGS: [usize; 3] = [40, 16, 7];
+/// Or those that are at least as large as this share of the first.
+const AS_LARGE: f64 = 0.25;
 /// Shapes are compared when they have grown to so many flats.
 const COMPARED: usize = 600;
 /// After so many flats in a row about which no shape fits, or none that covers this share of its group, the rest is freeform.
@@ -36,6 +42,10 @@ const LEAST: f64 = 0.5;
 const FITTED: usize = 240;
 /// A flat leans by no more than this, in radians, from the shape at its middle.
 const LEAN: f64 = 35.0 / 180.0 * std::f64::consts::PI;
+/// This share of what a plane face runs into is narrow.
+const NARROW: f64 = 0.9;
+/// A flat leans clearly less from one shape than from another if by more than this, in radians.
+const CLEARLY: f64 = 0.5 / 180.0 * std::f64::consts::PI;
 /// A less simple shape has to cover this many times more.
 const SIMPLER: f64 = 1.02;
 
@@ -81,6 +91,11 @@ impl Faces {
             face.triangles.iter().for_each(|f| of[*f as usize] = k);
         }
         Self { list, of }
+    }
+
+    /// The face that a triangle is part of.
+    pub(super) fn at(&self, f: u32) -> &Face {
+        &self.list[self.of[f as usize] as usize]
     }
 }
 
@@ -158,7 +173,7 @@ impl<'a> Growth<'a> {
         keyed.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let order: Vec<u32> = keyed.into_iter().map(|k| k.1).collect();
         let small = SMALL * self.segments.group(self.group).area;
-        let mut found: Vec<Found> = Vec::new();
+        let mut found = self.planes(small);
         // What runs into a face is seen better once that one is gone.
         for _ in 0..PASSES {
             let before = found.len();
@@ -187,6 +202,54 @@ impl<'a> Growth<'a> {
         found.iter().map(|found| self.face(found)).collect()
     }
 
+    /// Plane faces that run smoothly into others and are not told from these by their folds alone: all that is beside them is narrow. O(n).
+    fn planes(&mut self, small: f64) -> Vec<Found> {
+        let part_of = |flat: u32| self.segments.plane_part[self.flats.triangles(flat)[0] as usize];
+        let mut flats: Vec<(u32, u32)> =
+            self.flats.of_group(self.group).map(|flat| (part_of(flat), flat)).collect();
+        flats.sort_unstable();
+        let parts: Vec<&[(u32, u32)]> = flats.chunk_by(|a, b| a.0 == b.0).collect();
+        let width_of = |part: &[(u32, u32)]| {
+            let own = part.iter().flat_map(|(_, flat)| self.flats.triangles(*flat));
+            width(self.solid, &own.copied().collect::<Vec<u32>>())
+        };
+        let is_narrow = |part: u32, beside: f64| {
+            let other = parts.binary_search_by_key(&part, |p| p[0].0);
+            other.is_ok_and(|k| width_of(parts[k]) * WIDER < beside)
+        };
+        let is_face = |part: &[(u32, u32)]| {
+            let area: f64 = part.iter().map(|(_, flat)| self.flats.area(*flat)).sum();
+            if area < small {
+                return false;
+            }
+            let own = width_of(part);
+            let triangles = part.iter().flat_map(|(_, flat)| self.flats.triangles(*flat));
+            let mut beside: BTreeMap<u32, f64> = BTreeMap::new();
+            for h in triangles.flat_map(|f| 3 * f..3 * f + 3) {
+                let other = self.solid.across(h);
+                let part_beside = self.segments.plane_part[other as usize];
+                if part_beside != part[0].0 && self.segments.of(other) == self.group {
+                    *beside.entry(part_beside).or_default() += self.solid.length(h);
+                }
+            }
+            let all: f64 = beside.values().sum();
+            let narrow = beside.iter().filter(|(other, _)| is_narrow(**other, own));
+            all > 0.0 && narrow.map(|b| b.1).sum::<f64>() >= NARROW * all
+        };
+        let whole: Vec<Vec<u32>> = parts
+            .iter()
+            .filter(|part| is_face(part))
+            .map(|part| part.iter().map(|p| p.1).collect())
+            .collect();
+        let plane = |growth: &Self, flats: &[u32]| {
+            let triangles: Vec<u32> =
+                flats.iter().flat_map(|flat| growth.flats.triangles(*flat)).copied().collect();
+            let Plane { normal, offset } = mean_plane(growth.solid, &triangles);
+            Shape::Plane { normal, offset }
+        };
+        whole.into_iter().map(|flats| self.take(plane(self, &flats), flats)).collect()
+    }
+
     /// Gives flats to larger faces whose shapes they lie on as well as on their own: smaller ones that were met before may have taken them.
     /// Faces are as large as they were before. O(n) in flats and their neighbours, and n log n in faces.
     fn give_back(&mut self, found: &mut Vec<Found>) {
@@ -198,9 +261,11 @@ impl<'a> Growth<'a> {
         let size = |k: u32| found.get(k as usize).map_or(0.0, |face| face.area);
         order.sort_by(|a, b| size(*b).total_cmp(&size(*a)).then(a.cmp(b)));
         let own = self.flats.of_group(self.group);
+        let tolerances: Vec<f64> =
+            found.iter().map(|face| self.tolerance(&self.cloud(&face.flats))).collect();
         for k in order {
             let face = &found[k as usize];
-            let tolerance = self.tolerance(&self.cloud(&face.flats));
+            let tolerance = tolerances[k as usize];
             let mut stack: Vec<u32> =
                 face.flats.iter().copied().filter(|flat| owner[self.place(*flat)] == k).collect();
             while let Some(flat) = stack.pop() {
@@ -220,6 +285,7 @@ impl<'a> Growth<'a> {
                 }
             }
         }
+        self.settle_borders(found, &tolerances, &mut owner);
         let mut pieces = Vec::new();
         for first in own.clone() {
             let k = std::mem::replace(&mut owner[self.place(first)], NONE);
@@ -237,6 +303,33 @@ impl<'a> Growth<'a> {
             pieces.push(Found { shape: face.shape, area: self.area(&flats), flats });
         }
         *found = pieces;
+    }
+
+    /// Gives flats between two faces that lie on both to the one from which they lean less: where a fillet touches a cone, the nodes of its first
+    /// rings are on that as well, as far as nodes tell. O(n) in flats and their neighbours.
+    fn settle_borders(&self, found: &[Found], tolerances: &[f64], owner: &mut [u32]) {
+        let own = self.flats.of_group(self.group);
+        let lean = |k: u32, flat: u32| {
+            let outward = found[k as usize].shape.outward(self.flats.middle(flat));
+            outward.dot(self.flats.normal(flat)).abs().clamp(0.0, 1.0).acos()
+        };
+        let mut stack: Vec<u32> = own.clone().collect();
+        while let Some(flat) = stack.pop() {
+            let from = owner[self.place(flat)];
+            if from == NONE {
+                continue;
+            }
+            let others = self.flats.beside(self.solid, flat).filter(|other| own.contains(other));
+            let others = others.map(|other| owner[self.place(other)]).filter(|k| *k != NONE && *k != from);
+            let leaner = |k: &u32| {
+                lean(*k, flat) + CLEARLY < lean(from, flat)
+                    && self.is_on(&found[*k as usize].shape, tolerances[*k as usize], flat)
+            };
+            if let Some(to) = others.filter(leaner).min_by(|a, b| lean(*a, flat).total_cmp(&lean(*b, flat))) {
+                owner[self.place(flat)] = to;
+                stack.extend(self.flats.beside(self.solid, flat).filter(|other| own.contains(other)));
+            }
+        }
     }
 
     /// How far the corners of a flat are from a shape, at most.
@@ -282,8 +375,13 @@ impl<'a> Growth<'a> {
 
     /// The shape about a flat that reaches farthest.
     fn largest(&mut self, seed: u32) -> Option<(Shape, Vec<u32>)> {
-        for count in SURROUNDINGS {
-            let near = self.around(seed, count);
+        let least = AS_LARGE * self.flats.area(seed);
+        for round in 0..=SURROUNDINGS.len() {
+            let near = match SURROUNDINGS.get(round) {
+                Some(count) => self.around(seed, *count),
+                // A face that is one facet high has others about all of its facets, narrow ones if these are fillets.
+                None => self.walked(seed, SURROUNDINGS[1], |growth, flat| growth.flats.area(flat) >= least),
+            };
             let cloud = self.cloud(&near);
             let tolerance = self.tolerance(&cloud);
             let mut best: Option<(f64, Shape, Vec<u32>)> = None;

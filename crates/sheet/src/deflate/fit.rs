@@ -12,7 +12,7 @@ use super::shape::Shape;
 /// Radii larger than this many times the extent of what is fitted are flat.
 const FLAT: f64 = 30.0;
 /// Cones are steeper than this and less steep than a right angle less this, in radians.
-const STEEP: f64 = 0.02;
+const STEEP: f64 = 3e-3;
 /// Nodes that are within this share of the wanted error of one plane are on no round shape.
 const IN_PLANE: f64 = 0.1;
 /// Eigenvalues smaller than this share of the largest are directions in which the shape moves within itself.

@@ -166,8 +166,8 @@ impl Walls {
         }
     }
 
-    /// Fillets that curved walls run into: hollow faces without an exact partner, beside faces of their group that have one. What is
-    /// opposite to facets of them is so by chance.
+    /// Fillets that curved walls run into: hollow faces without an exact partner, beside faces of their group that have one or are parallel
+    /// to what is opposite, as a boss with draft is. What is opposite to facets of fillets is so by chance.
     /// What a round faces all along is no fillet but the inside of a bend.
     pub(super) fn fillets(
         &self,
@@ -179,10 +179,16 @@ impl Walls {
         let mut has_partner = vec![false; faces.list.len()];
         pairs.iter().flat_map(|p| p.faces).for_each(|f| has_partner[f] = true);
         let group = |face: &Face| segments.of(face.triangles[0]);
-        let mut has_wall = vec![false; segments.groups.len()];
-        for (face, has_partner) in faces.list.iter().zip(&has_partner) {
-            has_wall[group(face) as usize] |= *has_partner;
+        let mut of_group: Vec<Vec<usize>> = vec![Vec::new(); segments.groups.len()];
+        for (k, face) in faces.list.iter().enumerate() {
+            of_group[group(face) as usize].push(k);
         }
+        let has_wall = |g: u32, fillet: &Face| {
+            let others =
+                || of_group[g as usize].iter().copied().filter(|k| !std::ptr::eq(&faces.list[*k], fillet));
+            let is_parallel = |k: usize| self.is_inside_of_a_bend(solid, segments, &faces.list[k].triangles);
+            others().any(|k| has_partner[k]) || others().any(is_parallel)
+        };
         let is_fillet = |(face, has_partner): &(&Face, &bool)| {
             let small = match face.shape {
                 Shape::Cylinder { radius, .. } | Shape::Sphere { radius, .. } => radius < self.max_thickness,
@@ -193,9 +199,9 @@ impl Walls {
             !**has_partner
                 && face.concave
                 && small
-                && has_wall[g as usize]
                 && self.is_wall[g as usize]
                 && !self.is_inside_of_a_bend(solid, segments, &face.triangles)
+                && has_wall(g, face)
         };
         faces
             .list

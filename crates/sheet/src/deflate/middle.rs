@@ -4,6 +4,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::faces::{Face, Faces};
 use super::plane::{Plane, PlaneTable};
 use super::segments::Segments;
 use super::solid::Solid;
@@ -179,6 +180,7 @@ impl Middles {
         solid: &Solid,
         segments: &Segments,
         walls: &Walls,
+        faces: &Faces,
     ) -> Vec<[Option<Middle>; 3]> {
         let seen: Vec<[Option<Middle>; 3]> = (0..solid.len())
             .into_par_iter()
@@ -187,13 +189,20 @@ impl Middles {
                 if !walls.is_wall[group as usize] {
                     return [None; 3];
                 }
-                self.corners_of(solid, segments, walls, f)
+                self.corners_of(solid, segments, walls, faces, f)
             })
             .collect();
         self.filled(solid, segments, walls, seen)
     }
 
-    fn corners_of(&self, solid: &Solid, segments: &Segments, walls: &Walls, f: u32) -> [Option<Middle>; 3] {
+    fn corners_of(
+        &self,
+        solid: &Solid,
+        segments: &Segments,
+        walls: &Walls,
+        faces: &Faces,
+        f: u32,
+    ) -> [Option<Middle>; 3] {
         let group = segments.of(f);
         let normal = solid.normals[f as usize];
         let middle = solid.centroid(f);
@@ -208,15 +217,18 @@ impl Middles {
             let p = corner.lerp(middle, INSET);
             // Behind a fillet the wall is thicker than it is.
             let wall = |o: &Opposite| walls.is_wall[segments.of(o.face) as usize];
-            let opposite = walls.opposite(solid, segments, f, p).filter(wall);
-            let opposite = opposite.or_else(|| walls.opposite_middle(solid, segments, f).filter(wall))?;
+            let beside = walls.opposite(solid, segments, f, p).filter(wall).map(|o| (p, o));
+            let at_middle = || walls.opposite_middle(solid, segments, f).filter(wall).map(|o| (middle, o));
+            let (p, opposite) = beside.or_else(at_middle)?;
             let partner = segments.of(opposite.face);
             if let Some((plane, number)) = self.between(group, partner) {
                 let thickness = opposite.distance;
                 return Some(Middle { plane, exact: Some(number), thickness });
             }
-            let offset = normal.dot(corner) - opposite.distance / 2.0;
-            Some(Middle { plane: Plane { normal, offset }, exact: None, thickness: opposite.distance })
+            let halfway = halfway(normal, faces.at(f), faces.at(opposite.face));
+            let offset = halfway.dot(p - normal * (opposite.distance / 2.0));
+            let plane = Plane { normal: halfway, offset };
+            Some(Middle { plane, exact: None, thickness: opposite.distance })
         })
     }
 
@@ -249,6 +261,15 @@ impl Middles {
         }
         seen
     }
+}
+
+/// The normal of the middle beside a facet: its own, but for round walls with draft, whose sides lean against each other along
+/// the axis. What they bend by is not asked of facets: these are chords, and lean by chance.
+fn halfway(normal: DVec3, face: &Face, other: &Face) -> DVec3 {
+    let Some((axis, lean)) = face.shape.lean(&other.shape) else { return normal };
+    let along = (axis - normal * axis.dot(normal)).normalize_or_zero();
+    let lean = if face.concave { lean } else { -lean };
+    normal * lean.cos() + along * lean.sin()
 }
 
 /// Spreads thicknesses over the faces of a group from where they are known.

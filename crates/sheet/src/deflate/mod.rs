@@ -14,6 +14,7 @@ mod fill;
 mod fit;
 mod flares;
 mod flats;
+mod flush;
 mod follow;
 mod looks;
 mod middle;
@@ -55,6 +56,7 @@ use blends::Blends;
 use exact::Exact;
 use faces::Faces;
 use features::Features;
+use flush::Flush;
 use middle::Middles;
 use patches::patched;
 use replace::{Replacement, Way};
@@ -183,14 +185,15 @@ pub fn deflate(
     begin(Step::Replace)?;
     let mut features = Features::new(&solid, &segments, &walls, &blends, &faces, options);
     let mut middles = Middles::new(&solid, &segments, &walls);
-    let kept = kept_groups(&solid, &segments, &walls, &blends, &middles.of_group, false);
+    let flush = Flush::new(&solid, &segments, &walls);
+    let kept = kept_groups(&solid, &segments, &walls, &blends, &flush, &middles.of_group, false);
     for step in middles.steps(&solid, &segments, &walls, &kept) {
         let removed = features.add_step(&solid, &segments, &step, options);
         if removed || options.steps == Steps::Aligned {
             middles.align_step(&walls, &step);
         }
     }
-    let corners = middles.at_corners(&solid, &segments, &walls);
+    let corners = middles.at_corners(&solid, &segments, &walls, &faces);
     let star = Star::new(&solid.mesh.faces, solid.mesh.positions.len());
     let twins = Twins::new(&solid, &walls, &star);
     let replacement = Replacement {
@@ -201,11 +204,12 @@ pub fn deflate(
         blends: &blends,
         corners: &corners,
         twins: &twins,
+        flush: &flush,
         star: &star,
     };
     let meeting = replacement.moved(Way::Meeting);
     begin(Step::Stitch)?;
-    let others = kept_groups(&solid, &segments, &walls, &blends, &middles.of_group, true);
+    let others = kept_groups(&solid, &segments, &walls, &blends, &flush, &middles.of_group, true);
     let trials = Trials {
         solid: &solid,
         segments: &segments,

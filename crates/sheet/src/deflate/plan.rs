@@ -120,7 +120,7 @@ pub(super) fn plan(
     }
     if options.steps != Steps::Apart {
         let terraced: BTreeSet<u32> = terraces.iter().flat_map(|piece| &piece.groups).map(|g| g.0).collect();
-        planes.extend(steps(solid, segments, walls, middles, gone, kept, &terraced, &moved.positions));
+        planes.extend(steps(solid, segments, walls, middles, gone, kept, &terraced, moved));
         curved.extend(round_steps(solid, segments, walls, gone, kept, moved));
     }
     planes.extend(terraces);
@@ -147,8 +147,9 @@ fn steps(
     gone: &[bool],
     kept: &[bool],
     terraced: &BTreeSet<u32>,
-    moved: &[DVec3],
+    moved: &Moved,
 ) -> Vec<PlanePiece> {
+    let Moved { positions: moved, flush, .. } = moved;
     let mut found = Vec::new();
     for (g, group) in (0u32..).zip(&segments.groups) {
         let Some(plane) = group.plane.filter(|_| !walls.is_wall[g as usize] && !gone[g as usize]) else {
@@ -167,7 +168,10 @@ fn steps(
             is_terraced || beside.iter().any(is_round) || !has_levels(segments, middles, &beside, kept);
         let is_end = may_be_end && is_end(walls, &beside, kept);
         beside.retain(|o| kept[*o as usize]);
-        if beside.len() < 2 || is_end {
+        // From the edge of a wall to the middle of what that is flush with, it is the end of the latter.
+        let is_flush =
+            || group.faces.iter().any(|f| solid.mesh.faces[*f as usize].iter().any(|v| flush[*v as usize]));
+        if beside.len() < 2 || is_end || is_flush() {
             continue;
         }
         // Twice the area that is left, and its outline.

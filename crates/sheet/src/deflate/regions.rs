@@ -17,7 +17,7 @@ const COPLANAR_TURN: f64 = 2e-3;
 /// Planes of rounded faces are fitted anew so many times.
 const REFITS: usize = 5;
 /// A plane face is this many times wider than the facets of the curved faces that it runs into.
-const WIDER: f64 = 3.0;
+pub(super) const WIDER: f64 = 3.0;
 /// Or, if it is a low strip, this many times as deep behind its smooth edges.
 const DEEPER: f64 = 8.0;
 /// So many plane pieces that run into each other are facets of a curved face.

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::assemble::Moved;
 use super::blends::{Belongs, Blends};
+use super::flush::Flush;
 use super::middle::{Middle, Middles};
 use super::plane::Plane;
 use super::segments::Segments;
@@ -72,6 +73,7 @@ pub(super) struct Replacement<'a> {
     /// The middles at the corners of every face.
     pub(super) corners: &'a [[Option<Middle>; 3]],
     pub(super) twins: &'a Twins,
+    pub(super) flush: &'a Flush,
     /// Faces at every node, with the corner: `3 face + corner`.
     pub(super) star: &'a Star,
 }
@@ -112,6 +114,7 @@ impl Replacement<'_> {
             positions,
             soft: (0..nodes).into_par_iter().map(|v| !self.wanted(v).facets.is_empty()).collect(),
             blended: (0..nodes).map(|v| !self.blends.behind(v).is_empty()).collect(),
+            flush: (0..nodes).map(|v| self.flush.is_at(v)).collect(),
         }
     }
 
@@ -278,8 +281,7 @@ impl Replacement<'_> {
         let behind = self.blends.behind(v).iter().copied().filter(|b| !groups.contains(&b.group));
         let belongs: Vec<Belongs> = own.chain(behind).collect();
         // Walls first: ends that are trifles beside their thickness do not hold anything.
-        let (walls, ends): (Vec<Belongs>, Vec<Belongs>) =
-            belongs.into_iter().partition(|b| self.walls.is_wall[b.group as usize]);
+        let (walls, ends): (Vec<Belongs>, Vec<Belongs>) = belongs.into_iter().partition(|b| self.is_wall(b));
         wanted.thickness = f64::INFINITY;
         for b in walls.into_iter().chain(ends) {
             self.want(b, &mut wanted);
@@ -382,9 +384,13 @@ impl Replacement<'_> {
         Some((q - p).angle_between(r - p)).filter(|angle| angle.is_finite()).unwrap_or(0.0)
     }
 
+    /// Whether what a node belongs to is a wall there.
+    fn is_wall(&self, belongs: &Belongs) -> bool {
+        self.walls.is_wall[belongs.group as usize] && !self.flush.is_end(belongs.group, belongs.at)
+    }
+
     fn want(&self, belongs: Belongs, wanted: &mut Wanted) {
-        let g = belongs.group as usize;
-        if !self.walls.is_wall[g] {
+        if !self.is_wall(&belongs) {
             self.want_end(belongs, wanted);
             return;
         }

@@ -61,6 +61,8 @@ pub(super) struct Seams {
     paths: Vec<Vec<u32>>,
     /// The pieces that each borders.
     pieces: Vec<Vec<u32>>,
+    /// One of the edges whose path has these ends, the smaller node first.
+    by_ends: BTreeMap<[u32; 2], usize>,
     /// Pieces with smaller numbers are plane.
     first_curved: u32,
 }
@@ -95,7 +97,8 @@ impl Seams {
         let edges: Vec<[u32; 2]> = runs.iter().map(|run| run[0].0).collect();
         let pieces = runs.iter().map(|run| run.iter().map(|e| e.1).collect()).collect();
         let paths = edges.iter().map(|e| e.to_vec()).collect();
-        let mut seams = Self { positions, merged, soft: soft.to_vec(), edges, paths, pieces, first_curved };
+        let (soft, by_ends) = (soft.to_vec(), BTreeMap::new());
+        let mut seams = Self { positions, merged, soft, edges, paths, pieces, by_ends, first_curved };
         seams.update();
         let nodes = seams.nodes();
         let most = MOST_CUTS * nodes.len() + MOST_ANYWAY;
@@ -148,18 +151,25 @@ impl Seams {
         self.update();
     }
 
-    /// The nodes from `a` to `b` along an edge, both ends included, after merging and cutting; one node where they are one.
+    /// The nodes from `a` to `b` along an edge, both ends included, after merging and cutting; one node where they are one. An edge
+    /// inside of a piece whose ends came to be those of a border is that border.
     pub(super) fn path(&self, a: u32, b: u32) -> Vec<u32> {
-        let Ok(k) = self.edges.binary_search(&[a.min(b), a.max(b)]) else {
-            let mut path = vec![self.merged.find(a), self.merged.find(b)];
-            path.dedup();
-            return path;
+        let directed = |k: usize, forward: bool| {
+            let path = &self.paths[k];
+            if forward { path.clone() } else { path.iter().rev().copied().collect() }
         };
-        let path = &self.paths[k];
-        if a < b { path.clone() } else { path.iter().rev().copied().collect() }
+        if let Ok(k) = self.edges.binary_search(&[a.min(b), a.max(b)]) {
+            return directed(k, a < b);
+        }
+        let [from, to] = [a, b].map(|v| self.merged.find(v));
+        match self.by_ends.get(&[from.min(to), from.max(to)]) {
+            Some(k) => directed(*k, self.paths[*k][0] == from),
+            None if from == to => vec![from],
+            None => vec![from, to],
+        }
     }
 
-    /// Cuts borders into parts of about a length at most that their pieces ask for.
+    /// Cuts borders into parts of about a length at most that their pieces ask for. With this they are done.
     pub(super) fn refine(&mut self, length_of: impl Fn(u32) -> f64) {
         let mut lengths: BTreeMap<[u32; 2], f64> = BTreeMap::new();
         for (path, pieces) in self.paths.iter().zip(&self.pieces) {
@@ -177,6 +187,13 @@ impl Seams {
             inner.insert([a, b], added);
         }
         self.insert(&inner);
+        // A path that closed up stands for no edge between two nodes.
+        for (k, path) in self.paths.iter().enumerate() {
+            let (from, to) = (path[0], path[path.len() - 1]);
+            if from != to {
+                self.by_ends.entry([from.min(to), from.max(to)]).or_insert(k);
+            }
+        }
     }
 
     /// Puts nodes into the parts that they lie on, in order from the smaller end.
@@ -455,5 +472,23 @@ mod tests {
         assert_eq!(path(3), [0, 1]);
         // If one of the two is curved it is a chord, and what is beside it may be the same border.
         assert_eq!(path(1), [0, 2, 3, 1]);
+    }
+
+    /// The next chord of a finely meshed bend came to lie on the border that it runs along, and this is cut for the plane on the other side.
+    #[test]
+    fn what_came_to_lie_on_a_border_is_cut_as_that_is() {
+        let positions =
+            [[0.0, 0.0], [80.0, 0.0], [0.0, 0.1], [80.0, 0.1]].map(|[x, z]| DVec3::new(x, 0.0, z));
+        let borders = [([0, 1], 0), ([0, 1], 1)];
+        let mut merged = Merged::new(positions.len());
+        merged.join(0, 2);
+        merged.join(1, 3);
+        let near = Nearness { rounding: 1e-6, chords: 0.7 };
+        let mut seams = Seams::new(positions.to_vec(), merged, &borders, 1, &[true; 4], near);
+        seams.refine(|piece| if piece == 0 { 30.0 } else { f64::INFINITY });
+        assert_eq!(seams.path(0, 1).len(), 4);
+        assert_eq!(seams.path(2, 3), seams.path(0, 1));
+        assert_eq!(seams.path(3, 2), seams.path(1, 0));
+        assert_eq!(seams.path(0, 2), [0]);
     }
 }

@@ -7,6 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::blends::Blends;
+use super::flush::Flush;
 use super::looks::Pair;
 use super::plane::Plane;
 use super::segments::Segments;
@@ -62,6 +63,7 @@ pub(super) fn kept_groups(
     segments: &Segments,
     walls: &Walls,
     blends: &Blends,
+    flush: &Flush,
     mids: &[Vec<Plane>],
     other: bool,
 ) -> Vec<bool> {
@@ -95,8 +97,8 @@ pub(super) fn kept_groups(
         // A wall with two middles would have to be cut in two. Plane ones are cut by what lies in them; a curved one has edges where its
         // thickness steps, or where others stand on it, on that side only.
         let split = match group.plane {
-            Some(_) => 4.0 * wide * (mids[g as usize].len().max(1) - 1) as f64,
-            None => STOOD_ON * 4.0 * levels[g as usize],
+            Some(_) => 4.0 * (wide * (mids[g as usize].len().max(1) - 1) as f64 + flush.length[g as usize]),
+            None => STEPPED * levels[g as usize],
         };
         let stood_on = STOOD_ON * stood_on[g as usize];
         score[root as usize][usize::from(side)] += creases.concave[g as usize] + stood_on - split;
@@ -174,8 +176,10 @@ fn keep_sides_with_signs(walls: &Walls, mids: &[Vec<Plane>], kept: &mut [bool]) 
 
 /// Creases of two sides differ if their lengths do by this many thicknesses.
 const DIFFERENT: f64 = 0.1;
-/// Edges to a wall that stands on a curved one, and levels of curved ones, weigh so much more than others.
-const STOOD_ON: f64 = 10.0;
+/// Edges to a wall that stands on a curved one weigh so much more than others: only on that side the curved one is cut there.
+const STOOD_ON: f64 = 1000.0;
+/// And so much the widths of a curved wall's levels.
+const STEPPED: f64 = 40.0;
 /// Or hardly, if by less than so many.
 const HARDLY: f64 = 10.0;
 /// One side has more plane walls opposite to curved ones than the other, if by this share of them.

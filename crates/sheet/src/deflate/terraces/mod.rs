@@ -279,6 +279,7 @@ impl Nodes<'_> {
             moved.positions.push(p - level.normal * level.height(p));
             moved.soft.push(corner.soft);
             moved.blended.push(false);
+            moved.flush.push(false);
             moved.positions.len() as u32 - 1
         })
     }

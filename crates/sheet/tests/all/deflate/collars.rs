@@ -2,7 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::deflate::solid_models::turned;
+use crate::deflate::solid_models::{revolved, turned};
+use crate::deflate::support::{deflated, has_topology};
 use mesh_kernel::TriMesh;
 use mesh_kernel::glam::DVec3;
 use sheet::deflate::{DeflateOptions, Nobody, deflate};
@@ -55,5 +56,27 @@ fn a_collar_stays_however_its_sides_are_meshed() {
             let area = PI * (48.0f64.powi(2) - 15.0 * 15.0) + TAU * 15.0 * 12.0;
             assert!((r.area / area - 1.0).abs() < 0.02, "{what}: {} mm² of {area}", r.area);
         }
+    }
+}
+
+/// A boss with draft inside and outside has no exact middle, and runs smoothly into the fillet about its foot: that belongs to the floor
+/// nevertheless.
+#[test]
+fn a_boss_with_draft_and_a_fillet_about_its_foot_stands_on_its_floor() {
+    for steps in [24, 48, 96] {
+        let draft = 1.5f64.to_radians();
+        let (foot, height) = (1.2, 12.0);
+        // The fillet touches the floor and the leaning side.
+        let centre = [3.4 + foot / draft.cos() - foot * draft.tan(), 2.0 + foot];
+        let mut profile = vec![[0.0, 0.0], [30.0, 0.0], [30.0, 2.0]];
+        let chords = steps / 6;
+        profile.extend((0..=chords).map(|k| {
+            let turn = (std::f64::consts::FRAC_PI_2 - draft) * f64::from(k) / f64::from(chords);
+            [centre[0] - foot * turn.sin(), centre[1] - foot * turn.cos()]
+        }));
+        let top = 2.0 + height;
+        profile.extend([[3.4 - height * draft.tan(), top], [1.9, top], [1.75, 2.0], [0.0, 2.0]]);
+        let thin = deflated(&revolved(&profile, steps, false));
+        has_topology(&thin, [3, 1, 2, 1]);
     }
 }

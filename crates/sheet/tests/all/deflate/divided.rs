@@ -83,3 +83,40 @@ fn few_chords_between_ribs_are_told_from_folded_plates() {
     let solid = prism(&profile, 50.0, 4);
     ribbed_however_divided(&solid, |_, _| ());
 }
+
+/// A strip offset by two slight bends: its legs are planes and the bends cylinders, although all of it runs on smoothly.
+#[test]
+fn legs_between_slight_bends_are_planes() {
+    for chords in [1, 6, 12] {
+        // Along the middle: turns by 27 degrees to one side and back, as of a bent strip.
+        let turn = 27f64.to_radians();
+        let side = |away: f64| {
+            let mut line = vec![[0.0, away]];
+            let first = [50.0, 6.0];
+            line.extend((0..=chords).map(|k| {
+                let a = turn * f64::from(k) / f64::from(chords);
+                [first[0] + (6.0 - away) * a.sin(), first[1] - (6.0 - away) * a.cos()]
+            }));
+            let end = [first[0] + 6.0 * turn.sin(), first[1] - 6.0 * turn.cos()];
+            let next = [end[0] + 5.0 * turn.cos(), end[1] + 5.0 * turn.sin()];
+            let centre = [next[0] + 6.0 * turn.sin(), next[1] - 6.0 * turn.cos()];
+            line.extend((0..=chords).rev().map(|k| {
+                let a = turn * f64::from(k) / f64::from(chords);
+                [centre[0] - (6.0 + away) * a.sin(), centre[1] + (6.0 + away) * a.cos()]
+            }));
+            line.push([centre[0] + 50.0, centre[1] + 6.0 + away]);
+            line
+        };
+        let mut profile = side(-1.0);
+        profile.extend(side(1.0).into_iter().rev());
+        let solid = prism(&profile, 30.0, 4);
+        let faces = deflate(&solid, &DeflateOptions::default(), &Nobody).unwrap().report.faces;
+        let all: f64 = faces.iter().map(|f| f.area).sum();
+        let of =
+            |kind: &str| faces.iter().filter(|f| f.shape.name() == kind).map(|f| f.area).sum::<f64>() / all;
+        // A single chord is not known to be round, and the short leg is not much wider than two of them.
+        let [least_plane, most_freeform] = if chords == 1 { [0.85, 0.15] } else { [0.9, 1e-9] };
+        assert!(of("freeform") < most_freeform, "{chords} chords: {faces:?}");
+        assert!(of("plane") > least_plane, "{chords} chords: {faces:?}");
+    }
+}

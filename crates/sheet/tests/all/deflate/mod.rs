@@ -4,6 +4,7 @@ mod collars;
 mod corners;
 mod divided;
 mod embossed;
+mod flush;
 mod folded;
 mod plates;
 mod rim_support;

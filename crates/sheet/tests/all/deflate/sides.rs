@@ -1,6 +1,6 @@
 //! Which side of a wall is kept: the one that knows what stands on it.
 
-use crate::deflate::solid_models::prism;
+use crate::deflate::solid_models::{prism, united};
 use sheet::deflate::{DeflateOptions, Nobody, deflate};
 
 /// Half a tube whose edges are bent sharply inward would rather be kept on its inside, which does not know of the fin.
@@ -28,4 +28,34 @@ fn fins_outside_of_a_bent_wall_share_its_nodes() {
         assert_eq!([r.patches, r.joints, r.components], [5, 1, 1], "{outer} chords, {inner} inside");
         assert_eq!((r.self_intersections, r.lost_edges), (0, 0), "{outer} chords, {inner} inside");
     }
+}
+
+/// A few ribs in a long bend that has a flange on its outside: only the inner facets of the bend are cut where the ribs stand, however much
+/// longer the flange's edge is.
+#[test]
+fn ribs_inside_of_a_bend_share_its_nodes_whatever_is_outside() {
+    let arc = |radius: f64, chords: u32| {
+        (0..=chords).map(move |k| {
+            let angle = std::f64::consts::FRAC_PI_2 * (2.0 + f64::from(k) / f64::from(chords));
+            [4.0 + radius * angle.cos(), 4.0 + radius * angle.sin()]
+        })
+    };
+    let mut profile = vec![[60.0, 0.0], [60.0, 1.5], [4.0, 1.5]];
+    profile.extend(arc(2.5, 5).collect::<Vec<_>>().into_iter().rev().skip(1));
+    profile.extend([[1.5, 30.0], [-12.0, 30.0], [-12.0, 28.5], [0.0, 28.5]]);
+    profile.extend(arc(4.0, 5));
+    let mut solids = vec![prism(&profile, 300.0, 1)];
+    for at in [100.0, 200.0] {
+        // Round where it reaches into the material of the bend.
+        let mut outline: Vec<[f64; 2]> = arc(3.2, 40).collect();
+        outline.extend([[40.0, 0.8], [40.0, 10.0], [10.0, 20.0], [0.8, 20.0]]);
+        let mut rib = prism(&outline, 1.2, 1);
+        rib.positions.iter_mut().for_each(|p| p.z += at);
+        solids.push(rib);
+    }
+    let solid = united(&solids);
+    let thin = deflate(&solid, &DeflateOptions::default(), &Nobody).unwrap();
+    let r = &thin.report;
+    assert_eq!([r.patches, r.joints, r.components], [4, 2, 1]);
+    assert_eq!((r.self_intersections, r.lost_edges), (0, 0));
 }

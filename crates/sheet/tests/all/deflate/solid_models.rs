@@ -1,6 +1,7 @@
 //! Thin solids made from formulas.
 
 use mesh_kernel::glam::{DMat3, DVec3};
+use mesh_kernel::merge::{Boolean, MergeOptions, boolean};
 use mesh_kernel::{Group, TriMesh};
 
 /// A profile (anticlockwise in x and y) drawn along z, in a number of cells.
@@ -139,6 +140,20 @@ pub(crate) fn appended(a: &TriMesh, b: &TriMesh) -> TriMesh {
 }
 
 /// A polygon in triangles, ear by ear.
+/// A box between two corners.
+pub(crate) fn block([x, y, z]: [f64; 3], to: [f64; 3]) -> TriMesh {
+    let profile = [[x, y], [to[0], y], [to[0], to[1]], [x, to[1]]];
+    let mut block = prism(&profile, to[2] - z, 1);
+    block.positions.iter_mut().for_each(|p| p.z += z);
+    block
+}
+
+/// Solids in one; what was flush is one face.
+pub(crate) fn united(solids: &[TriMesh]) -> TriMesh {
+    let all: Vec<&TriMesh> = solids.iter().collect();
+    boolean(&all, Boolean::Union, &MergeOptions::default()).unwrap().mesh
+}
+
 fn cap(profile: &[[f64; 2]]) -> Vec<[u32; 3]> {
     let at = |v: u32| profile[v as usize];
     let turn = |a: u32, b: u32, c: u32| {
