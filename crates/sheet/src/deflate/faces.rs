@@ -4,7 +4,7 @@
 //! A smooth group may be many faces that run into each other: a cylinder, a sphere in the corner, another cylinder. From some flat
 //! shapes are fitted to its surroundings, grown as far as nodes lie on them, and the one that reaches farthest is a face.
 
-use std::collections::BTreeMap;
+use std::cell::OnceCell;
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -42,8 +42,6 @@ const LEAST: f64 = 0.5;
 const FITTED: usize = 240;
 /// A flat leans by no more than this, in radians, from the shape at its middle.
 const LEAN: f64 = 35.0 / 180.0 * std::f64::consts::PI;
-/// This share of what a plane face runs into is narrow.
-const NARROW: f64 = 0.9;
 /// A flat leans clearly less from one shape than from another if by more than this, in radians.
 const CLEARLY: f64 = 0.5 / 180.0 * std::f64::consts::PI;
 /// A less simple shape has to cover this many times more.
@@ -202,44 +200,44 @@ impl<'a> Growth<'a> {
         found.iter().map(|found| self.face(found)).collect()
     }
 
-    /// Plane faces that run smoothly into others and are not told from these by their folds alone: all that is beside them is narrow. O(n).
+    /// Plane faces that run smoothly into others and are not told from these by their folds alone: all that is beside them is narrow.
+    /// O(n log n).
     fn planes(&mut self, small: f64) -> Vec<Found> {
         let part_of = |flat: u32| self.segments.plane_part[self.flats.triangles(flat)[0] as usize];
         let mut flats: Vec<(u32, u32)> =
             self.flats.of_group(self.group).map(|flat| (part_of(flat), flat)).collect();
         flats.sort_unstable();
         let parts: Vec<&[(u32, u32)]> = flats.chunk_by(|a, b| a.0 == b.0).collect();
-        let width_of = |part: &[(u32, u32)]| {
-            let own = part.iter().flat_map(|(_, flat)| self.flats.triangles(*flat));
-            width(self.solid, &own.copied().collect::<Vec<u32>>())
+        let widths: Vec<OnceCell<f64>> = vec![OnceCell::new(); parts.len()];
+        let width_of = |k: usize| {
+            let own = || parts[k].iter().flat_map(|(_, flat)| self.flats.triangles(*flat)).copied();
+            *widths[k].get_or_init(|| width(self.solid, &own().collect::<Vec<u32>>()))
         };
-        let is_narrow = |part: u32, beside: f64| {
-            let other = parts.binary_search_by_key(&part, |p| p[0].0);
-            other.is_ok_and(|k| width_of(parts[k]) * WIDER < beside)
-        };
-        let is_face = |part: &[(u32, u32)]| {
+        let is_face = |k: usize| {
+            let part = parts[k];
             let area: f64 = part.iter().map(|(_, flat)| self.flats.area(*flat)).sum();
             if area < small {
                 return false;
             }
-            let own = width_of(part);
             let triangles = part.iter().flat_map(|(_, flat)| self.flats.triangles(*flat));
-            let mut beside: BTreeMap<u32, f64> = BTreeMap::new();
-            for h in triangles.flat_map(|f| 3 * f..3 * f + 3) {
-                let other = self.solid.across(h);
-                let part_beside = self.segments.plane_part[other as usize];
-                if part_beside != part[0].0 && self.segments.of(other) == self.group {
-                    *beside.entry(part_beside).or_default() += self.solid.length(h);
-                }
-            }
-            let all: f64 = beside.values().sum();
-            let narrow = beside.iter().filter(|(other, _)| is_narrow(**other, own));
-            all > 0.0 && narrow.map(|b| b.1).sum::<f64>() >= NARROW * all
+            let others = triangles.flat_map(|f| 3 * f..3 * f + 3).map(|h| self.solid.across(h));
+            let mut beside: Vec<u32> = others
+                .filter(|other| self.segments.of(*other) == self.group)
+                .map(|other| self.segments.plane_part[other as usize])
+                .filter(|other| *other != part[0].0)
+                .collect();
+            beside.sort_unstable();
+            beside.dedup();
+            // However short the edge to it, what is as wide may be the next facet of the same round face.
+            let is_narrow = |other: &u32| {
+                let other = parts.binary_search_by_key(other, |p| p[0].0);
+                other.is_ok_and(|other| width_of(other) * WIDER < width_of(k))
+            };
+            !beside.is_empty() && beside.iter().all(is_narrow)
         };
-        let whole: Vec<Vec<u32>> = parts
-            .iter()
-            .filter(|part| is_face(part))
-            .map(|part| part.iter().map(|p| p.1).collect())
+        let whole: Vec<Vec<u32>> = (0..parts.len())
+            .filter(|k| is_face(*k))
+            .map(|k| parts[k].iter().map(|(_, flat)| *flat).collect())
             .collect();
         let plane = |growth: &Self, flats: &[u32]| {
             let triangles: Vec<u32> =

@@ -1,5 +1,6 @@
 //! Where curved walls end: rims that are round, and flares and fillets towards other walls, which smooth facets hide.
 
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use rayon::prelude::*;
@@ -23,6 +24,8 @@ const RIM: f64 = 0.3;
 /// The inside of a bend is parallel to the outside up to this, in radians, on this share of it.
 const ALONG: f64 = 20.0 / 180.0 * std::f64::consts::PI;
 const MOST: f64 = 0.6;
+/// A part of a wall is more than this share of its group; less is parallel to what is opposite by chance.
+const PIECE: f64 = 1e-2;
 /// Looks beside a border begin this share of the way from it to the middle of the face.
 const INSET: f64 = 0.05;
 
@@ -183,33 +186,32 @@ impl Walls {
         for (k, face) in faces.list.iter().enumerate() {
             of_group[group(face) as usize].push(k);
         }
-        let has_wall = |g: u32, fillet: &Face| {
-            let others =
-                || of_group[g as usize].iter().copied().filter(|k| !std::ptr::eq(&faces.list[*k], fillet));
-            let is_parallel = |k: usize| self.is_inside_of_a_bend(solid, segments, &faces.list[k].triangles);
-            others().any(|k| has_partner[k]) || others().any(is_parallel)
+        let parallel: Vec<OnceCell<bool>> = vec![OnceCell::new(); faces.list.len()];
+        let is_parallel = |k: usize| {
+            *parallel[k].get_or_init(|| self.is_inside_of_a_bend(solid, segments, &faces.list[k].triangles))
         };
-        let is_fillet = |(face, has_partner): &(&Face, &bool)| {
+        let has_wall = |g: u32, fillet: usize| {
+            let others = || of_group[g as usize].iter().copied().filter(|k| *k != fillet);
+            let is_piece = |k: usize| faces.list[k].area > PIECE * segments.group(g).area;
+            others().any(|k| has_partner[k]) || others().any(|k| is_piece(k) && is_parallel(k))
+        };
+        let is_fillet = |k: &usize| {
+            let face = &faces.list[*k];
             let small = match face.shape {
                 Shape::Cylinder { radius, .. } | Shape::Sphere { radius, .. } => radius < self.max_thickness,
                 Shape::Torus { minor, .. } => minor < self.max_thickness,
                 _ => false,
             };
             let g = group(face);
-            !**has_partner
+            !has_partner[*k]
                 && face.concave
                 && small
                 && self.is_wall[g as usize]
-                && !self.is_inside_of_a_bend(solid, segments, &face.triangles)
-                && has_wall(g, face)
+                && !is_parallel(*k)
+                && has_wall(g, *k)
         };
-        faces
-            .list
-            .iter()
-            .zip(&has_partner)
-            .filter(is_fillet)
-            .map(|(face, _)| face.triangles.clone())
-            .collect()
+        let fillets = (0..faces.list.len()).filter(is_fillet);
+        fillets.map(|k| faces.list[k].triangles.clone()).collect()
     }
 
     /// Insides of bends that run into fillets, as the upright edges of a box run into those of its floor: round faces of groups that are

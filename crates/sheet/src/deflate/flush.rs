@@ -43,19 +43,18 @@ impl Flush {
             Some((h, end, [(a, at_first), (b, at_second)]))
         };
         let seen: Vec<_> = (0..3 * solid.len()).into_par_iter().filter_map(look).collect();
-        let mut length = vec![0.0; segments.groups.len()];
         let (mut ends, mut sides) = (BTreeSet::new(), BTreeSet::new());
-        for (h, group, nodes) in seen {
+        for (_, group, nodes) in &seen {
             for (v, is_end) in nodes {
-                if is_end {
-                    ends.insert((v, group));
-                    length[group as usize] += solid.length(h) / 2.0;
-                } else {
-                    sides.insert((v, group));
-                }
+                if *is_end { &mut ends } else { &mut sides }.insert((*v, *group));
             }
         }
         ends.retain(|key| !sides.contains(key));
+        let mut length = vec![0.0; segments.groups.len()];
+        for (h, group, nodes) in seen {
+            let at_ends = nodes.iter().filter(|(v, _)| ends.contains(&(*v, group))).count();
+            length[group as usize] += solid.length(h) * at_ends as f64 / 2.0;
+        }
         Self { ends, length }
     }
 
@@ -75,7 +74,12 @@ impl Flush {
 fn is_end(solid: &Solid, segments: &Segments, walls: &Walls, h: u32, v: u32, w: u32) -> bool {
     let [wall, end] = [h / 3, solid.across(h)];
     let [normal, out] = [wall, end].map(|f| solid.normals[f as usize]);
-    if solid.fold_cosine(h) > SHARP.cos() || !solid.is_convex(h) || normal.dot(out).abs() > UPRIGHT {
+    let has_other_side = !walls.partners(segments.of(wall)).is_empty();
+    if !has_other_side
+        || solid.fold_cosine(h) > SHARP.cos()
+        || !solid.is_convex(h)
+        || normal.dot(out).abs() > UPRIGHT
+    {
         return false;
     }
     let is_partner = |g: u32, f: u32| walls.partners(g).iter().any(|pair| pair.partner == segments.of(f));

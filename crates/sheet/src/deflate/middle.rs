@@ -1,6 +1,8 @@
 //! The middles that faces are replaced by (Sheen et al. 2008, section 6.2): exact planes between plane walls, and
 //! planes beside the facets of curved ones.
 
+use std::f64::consts::TAU;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -20,6 +22,8 @@ const MOSTLY: f64 = 0.8;
 const STEP: f64 = 0.01;
 /// Cosine of the angle between middles that can be aligned.
 const ALIGNED: f64 = 0.999;
+/// Axes that lean less than this, in radians, are parallel: those of walls with draft, each fitted by itself.
+const PARALLEL: f64 = 1e-2;
 /// Looks through the material at a corner begin this far from it towards the middle of the face.
 const INSET: f64 = 0.1;
 
@@ -225,7 +229,8 @@ impl Middles {
                 let thickness = opposite.distance;
                 return Some(Middle { plane, exact: Some(number), thickness });
             }
-            let halfway = halfway(normal, faces.at(f), faces.at(opposite.face));
+            let seen = [(faces.at(f), p), (faces.at(opposite.face), p - normal * opposite.distance)];
+            let halfway = halfway(normal, seen);
             let offset = halfway.dot(p - normal * (opposite.distance / 2.0));
             let plane = Plane { normal: halfway, offset };
             Some(Middle { plane, exact: None, thickness: opposite.distance })
@@ -263,12 +268,29 @@ impl Middles {
     }
 }
 
-/// The normal of the middle beside a facet: its own, but for round walls with draft, whose sides lean against each other along
-/// the axis. What they bend by is not asked of facets: these are chords, and lean by chance.
-fn halfway(normal: DVec3, face: &Face, other: &Face) -> DVec3 {
-    let Some((axis, lean)) = face.shape.lean(&other.shape) else { return normal };
+/// The normal of the middle beside a facet, from the faces on both sides of the wall and the points on them: its own, but for round walls with
+/// draft, whose sides lean against each other along their axis. What they bend by is not asked of facets: these are chords, and lean by
+/// chance.
+fn halfway(normal: DVec3, [(face, p), (other, q)]: [(&Face, DVec3); 2]) -> DVec3 {
+    let (Some(axis), Some(beyond)) = (face.shape.axis(), other.shape.axis()) else { return normal };
+    if axis.cross(beyond).length() > PARALLEL {
+        return normal;
+    }
+    // How steep each side is, in the plane of the axis and what points away from it; both face as the facet does.
+    let facing = |face: &Face, p: DVec3| {
+        let outward = face.shape.outward(p);
+        if outward.dot(normal) < 0.0 { -outward } else { outward }
+    };
+    let (own, theirs) = (facing(face, p), facing(other, q));
+    let away = |out: DVec3, axis: DVec3| (out - axis * axis.dot(out)).normalize_or_zero();
+    let steep = |out: DVec3, axis: DVec3, away: DVec3| f64::atan2(out.dot(axis), out.dot(away));
+    let beyond = if beyond.dot(axis) < 0.0 { -beyond } else { beyond };
+    let (own_away, their_away) = (away(own, axis), away(theirs, beyond));
+    let their_away = if their_away.dot(own_away) < 0.0 { -their_away } else { their_away };
+    let (from, to) = (steep(own, axis, own_away), steep(theirs, beyond, their_away));
+    let turn = to - from;
+    let lean = (turn - TAU * (turn / TAU).round()) / 2.0;
     let along = (axis - normal * axis.dot(normal)).normalize_or_zero();
-    let lean = if face.concave { lean } else { -lean };
     normal * lean.cos() + along * lean.sin()
 }
 

@@ -164,14 +164,14 @@ fn steps(
         let is_round = |o: &u32| segments.group(*o).plane.is_none() && !walls.is_wall[*o as usize];
         // The steps of plates that step on both sides are made already; the end of other walls may be one of them.
         let is_terraced = beside.iter().any(|o| terraced.contains(o));
-        let may_be_end =
-            is_terraced || beside.iter().any(is_round) || !has_levels(segments, middles, &beside, kept);
+        let is_level = !has_levels(segments, middles, &beside, kept);
+        let may_be_end = is_terraced || beside.iter().any(is_round) || is_level;
         let is_end = may_be_end && is_end(walls, &beside, kept);
         beside.retain(|o| kept[*o as usize]);
         // From the edge of a wall to the middle of what that is flush with, it is the end of the latter.
         let is_flush =
             || group.faces.iter().any(|f| solid.mesh.faces[*f as usize].iter().any(|v| flush[*v as usize]));
-        if beside.len() < 2 || is_end || is_flush() {
+        if beside.len() < 2 || is_end || is_level && is_flush() {
             continue;
         }
         // Twice the area that is left, and its outline.

@@ -5,8 +5,6 @@ use serde::Serialize;
 
 /// Axes and normals that lean less than this, in radians, are one; centres may be apart by this share of a radius.
 const SAME: f64 = 2e-3;
-/// Axes that lean less than this, in radians, are parallel: those of walls with draft, each fitted by itself.
-const PARALLEL: f64 = 1e-2;
 
 /// The geometry of a face. Lengths in millimetres, angles in radians, directions of unit length.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -157,17 +155,12 @@ impl Shape {
         }
     }
 
-    /// By how much what lies halfway to the face on the other side of a wall leans against this one, for cones and cylinders with
-    /// parallel axes: the axis, and the angle by which the half angle along it grows. A wall with draft, all around. `None` for others.
-    pub(super) fn lean(&self, other: &Self) -> Option<(DVec3, f64)> {
-        let round = |shape: &Self| match *shape {
-            Self::Cylinder { axis, .. } => Some((axis, 0.0)),
-            Self::Cone { axis, half_angle, .. } => Some((axis, half_angle)),
+    /// The axis of a cylinder or a cone; `None` for others.
+    pub(super) fn axis(&self) -> Option<DVec3> {
+        match *self {
+            Self::Cylinder { axis, .. } | Self::Cone { axis, .. } => Some(axis),
             _ => None,
-        };
-        let ((axis, own), (b, theirs)) = (round(self)?, round(other)?);
-        let lean = (theirs * axis.dot(b).signum() - own) / 2.0;
-        (axis.cross(b).length() < PARALLEL).then_some((axis, lean))
+        }
     }
 
     /// Its name, as files have it.

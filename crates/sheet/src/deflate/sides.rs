@@ -87,6 +87,7 @@ pub(super) fn kept_groups(
     let levels = widths_of_levels(segments, walls);
     // What speaks for each side of each set.
     let mut score = vec![[0.0f64; 2]; n];
+    let mut cut = vec![[0.0f64; 2]; n];
     let mut faces = vec![[0usize; 2]; n];
     // Plane walls are to lie opposite to plane ones: their middle is a plane only there.
     let mut bent = vec![[0.0f64; 2]; n];
@@ -102,6 +103,7 @@ pub(super) fn kept_groups(
         };
         let stood_on = STOOD_ON * stood_on[g as usize];
         score[root as usize][usize::from(side)] += creases.concave[g as usize] + stood_on - split;
+        cut[root as usize][usize::from(side)] += FIRST * stood_on;
         faces[root as usize][usize::from(side)] += group.faces.len();
         if group.plane.is_some() {
             let curved = |p: &&Pair| segments.group(p.partner).plane.is_none();
@@ -114,8 +116,10 @@ pub(super) fn kept_groups(
             let (root, side) = parity.find(g);
             let ([a, b], [few, many]) = (score[root as usize], faces[root as usize]);
             let [p, q] = bent[root as usize];
-            let second = if (a - b).abs() > DIFFERENT * walls.max_thickness {
-                b > a
+            let [cut_a, cut_b] = cut[root as usize];
+            let ahead = (b + cut_b) - (a + cut_a);
+            let second = if ahead.abs() > DIFFERENT * walls.max_thickness {
+                ahead > 0.0
             } else if (p - q).abs() > MUCH * (p + q) {
                 q < p
             } else {
@@ -176,8 +180,10 @@ fn keep_sides_with_signs(walls: &Walls, mids: &[Vec<Plane>], kept: &mut [bool]) 
 
 /// Creases of two sides differ if their lengths do by this many thicknesses.
 const DIFFERENT: f64 = 0.1;
-/// Edges to a wall that stands on a curved one weigh so much more than others: only on that side the curved one is cut there.
-const STOOD_ON: f64 = 1000.0;
+/// Edges to a wall that stands on a curved one weigh so much more than others. Only on that side the curved one is cut there: they decide before
+/// the others, but what else speaks for the two sides is to be seen as well where both are tried.
+const STOOD_ON: f64 = 10.0;
+const FIRST: f64 = 100.0;
 /// And so much the widths of a curved wall's levels.
 const STEPPED: f64 = 40.0;
 /// Or hardly, if by less than so many.

@@ -80,3 +80,20 @@ fn a_boss_with_draft_and_a_fillet_about_its_foot_stands_on_its_floor() {
         has_topology(&thin, [3, 1, 2, 1]);
     }
 }
+
+/// The web of a wheel with draft on both sides is two flat cones with their tips apart: its middle is a plane all the same.
+#[test]
+fn the_middle_of_a_web_with_draft_is_flat() {
+    for steps in [24, 48] {
+        for draft in [0.5f64, 1.0, 2.0] {
+            let more = 40.0 * draft.to_radians().tan();
+            for [hub, rim] in [[1.0 + more, 1.0], [1.0, 1.0 + more]] {
+                let profile = [[10.0, -hub], [50.0, -rim], [50.0, rim], [10.0, hub]];
+                let thin = deflated(&revolved(&profile, steps, true));
+                let highest = thin.sheet.positions.iter().map(|p| p.z.abs()).fold(0.0, f64::max);
+                assert!(highest < 0.01, "{steps} steps, draft {draft}: {highest} mm off");
+                assert_eq!(thin.report.self_intersections, 0);
+            }
+        }
+    }
+}

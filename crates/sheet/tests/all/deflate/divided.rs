@@ -1,6 +1,6 @@
 //! Solids whose facets were divided where they lie, as programs do that bring a mesh to an edge length.
 
-use crate::deflate::solid_models::prism;
+use crate::deflate::solid_models::{prism, revolved};
 use mesh_kernel::TriMesh;
 use sheet::deflate::{DeflateOptions, DeflateReport, Nobody, deflate};
 
@@ -119,4 +119,22 @@ fn legs_between_slight_bends_are_planes() {
         assert!(of("freeform") < most_freeform, "{chords} chords: {faces:?}");
         assert!(of("plane") > least_plane, "{chords} chords: {faces:?}");
     }
+}
+
+/// Facets of a low round band touch each other along short edges only, and narrow ones of fillets along long ones: they are no planes.
+#[test]
+fn facets_of_a_low_band_between_fillets_are_no_planes() {
+    let rounded = |from: f64, centre: [f64; 2]| {
+        (0..=8).map(move |k| {
+            let angle = from + std::f64::consts::FRAC_PI_2 * f64::from(k) / 8.0;
+            [centre[0] + 0.3 * angle.cos(), centre[1] + 0.3 * angle.sin()]
+        })
+    };
+    let mut profile = vec![[30.0, 1.0], [30.0, 0.0]];
+    profile.extend(rounded(-std::f64::consts::FRAC_PI_2, [39.7, 0.3]));
+    profile.extend(rounded(0.0, [39.7, 0.7]));
+    let faces =
+        deflate(&revolved(&profile, 48, true), &DeflateOptions::default(), &Nobody).unwrap().report.faces;
+    let planes = faces.iter().filter(|f| f.shape.name() == "plane").count();
+    assert_eq!(planes, 2, "{faces:?}");
 }

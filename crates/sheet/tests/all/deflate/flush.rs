@@ -33,3 +33,17 @@ fn a_floor_and_an_ear_flush_with_each_other_end_each_at_its_own_edge() {
         near(thin.report.area, (100.0 * 60.0 - 20.0) + (20.0 * 29.0 + 30.0 * 30.0), 1e-9);
     }
 }
+
+/// Beside a step of the floor's thickness the cheek changes nothing about that.
+#[test]
+fn a_floor_that_steps_beside_a_flush_cheek_stays_in_one_piece() {
+    for (thick, from) in [(3.0, 50.0), (3.0, 60.0), (4.0, 50.0), (4.0, 60.0)] {
+        let floor = block([0.0, 0.0, 0.0], [100.0, 60.0, 2.0]);
+        let thicker = block([50.0, 0.0, 0.0], [100.0, 60.0, thick]);
+        let cheek = block([from, 0.0, 0.0], [100.0, 2.0, 30.0]);
+        let thin = deflated(&united(&[floor, thicker, cheek]));
+        let r = &thin.report;
+        assert_eq!((r.components, r.free_loops, r.steps), (1, 1, 1), "{thick} from {from}");
+        assert_eq!((r.self_intersections, r.lost_edges), (0, 0), "{thick} from {from}");
+    }
+}

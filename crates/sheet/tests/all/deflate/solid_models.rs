@@ -139,7 +139,6 @@ pub(crate) fn appended(a: &TriMesh, b: &TriMesh) -> TriMesh {
     mesh
 }
 
-/// A polygon in triangles, ear by ear.
 /// A box between two corners.
 pub(crate) fn block([x, y, z]: [f64; 3], to: [f64; 3]) -> TriMesh {
     let profile = [[x, y], [to[0], y], [to[0], to[1]], [x, to[1]]];
@@ -154,6 +153,7 @@ pub(crate) fn united(solids: &[TriMesh]) -> TriMesh {
     boolean(&all, Boolean::Union, &MergeOptions::default()).unwrap().mesh
 }
 
+/// A polygon in triangles, ear by ear.
 fn cap(profile: &[[f64; 2]]) -> Vec<[u32; 3]> {
     let at = |v: u32| profile[v as usize];
     let turn = |a: u32, b: u32, c: u32| {
