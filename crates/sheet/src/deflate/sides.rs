@@ -180,9 +180,10 @@ fn keep_sides_with_signs(walls: &Walls, mids: &[Vec<Plane>], kept: &mut [bool]) 
 
 /// Creases of two sides differ if their lengths do by this many thicknesses.
 const DIFFERENT: f64 = 0.1;
-/// Edges to a wall that stands on a curved one weigh so much more than others. Only on that side the curved one is cut there: they decide before
-/// the others, but what else speaks for the two sides is to be seen as well where both are tried.
+/// Edges to a wall that stands on a curved one weigh so much more than others.
 const STOOD_ON: f64 = 10.0;
+/// And so much more again where it is decided: only on that side the curved one is cut there. Whether the other side is tried as well is asked
+/// without.
 const FIRST: f64 = 100.0;
 /// And so much the widths of a curved wall's levels.
 const STEPPED: f64 = 40.0;

@@ -1,8 +1,9 @@
-//! Solids that touch: blocks, hollows, prisms, rings, cells, welded where they meet.
+//! Solids that touch: blocks, hollows, prisms, rings, cells, welded where they meet; and what must hold when they are resolved.
 
 use std::collections::BTreeMap;
 
-use mesh_kernel::body::{Body, Pairing};
+use mesh_kernel::body::edit::Editor;
+use mesh_kernel::body::{Body, JointId, Pairing, Resolution};
 use mesh_kernel::glam::DVec3;
 use mesh_kernel::{Group, TriMesh};
 
@@ -272,4 +273,55 @@ pub(crate) fn cells(random: &mut Random, size: [usize; 3], grouping: usize) -> (
         }
     }
     (solids.body(), cells)
+}
+
+/// Resolves, and checks what must hold whatever the choice.
+pub(crate) fn resolve_edge(body: &Body, joint: JointId, pairing: Pairing) -> Resolution {
+    let done = body.resolve_edge(joint, pairing).unwrap();
+    kept(body, &done);
+    let edges = body.joint_len(joint) as i64;
+    let pairs = body.joint(joint).radial().len() as i64 / 2;
+    assert_eq!(done.after.e - done.before.e, (pairs - 1) * edges);
+    // The same as an operator: undone and done again, bit for bit.
+    let mut editor = Editor::new(body.clone());
+    editor.resolve_edge(joint, pairing).unwrap();
+    assert_eq!(editor.body(), &done.body);
+    assert!(editor.undo() && editor.body() == body && editor.redo());
+    assert_eq!(editor.body(), &done.body);
+    done
+}
+
+pub(crate) fn kept(body: &Body, done: &Resolution) {
+    sound(&done.body);
+    assert_eq!((done.before, done.after), (body.counts(), done.body.counts()));
+    assert!(done.before.identity_holds() && done.after.identity_holds());
+    assert_eq!(done.after.f, done.before.f);
+    match (body.volume(), done.body.volume()) {
+        (Some(a), Some(b)) => assert!((a - b).abs() <= 1e-12 * a.abs(), "{a} {b}"),
+        (a, b) => assert_eq!(a, b),
+    }
+    for (old, new) in done.joints.iter().enumerate() {
+        if let Some(new) = new {
+            assert_eq!(body.joint(JointId(old as u32)).radial().len(), done.body.joint(*new).radial().len());
+        }
+    }
+    for &pair in &done.pairs {
+        assert!(done.body.alternates(pair) && done.body.joint(pair).radial().len() == 2);
+    }
+}
+
+pub(crate) fn volumes(body: &Body) -> Vec<f64> {
+    let mut volumes: Vec<f64> = body.regions().regions().iter().filter_map(|r| r.volume).collect();
+    volumes.sort_by(f64::total_cmp);
+    volumes
+}
+
+pub(crate) fn near(a: &[f64], b: &[f64]) {
+    assert!(a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12), "{a:?} {b:?}");
+}
+
+pub(crate) fn only_joint(body: &Body) -> JointId {
+    let found = body.non_manifold_joints();
+    assert_eq!(found.len(), 1);
+    found[0]
 }
