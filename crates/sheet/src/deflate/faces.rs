@@ -59,6 +59,8 @@ pub(super) struct Face {
     pub(super) area: f64,
     /// Whether the material is outside of what is round: a hole, the inner side of a bend.
     pub(super) concave: bool,
+    /// By how much its triangles lean from it at their corners, in radians, in the mean over their area.
+    pub(super) lean: f64,
 }
 
 /// All faces.
@@ -104,7 +106,13 @@ fn face(solid: &Solid, shape: Shape, mut triangles: Vec<u32>) -> Face {
         shape.outward(solid.centroid(*f)).dot(solid.normals[*f as usize]) * solid.areas[*f as usize]
     };
     let concave = triangles.iter().map(out).sum::<f64>() < 0.0;
-    Face { shape, triangles, area, concave }
+    let lean = |f: &u32| {
+        let normal = solid.normals[*f as usize];
+        let lean = |p: DVec3| shape.outward(p).dot(normal).abs().min(1.0).acos();
+        solid.mesh.corners(*f).map(lean).iter().sum::<f64>() / 3.0 * solid.areas[*f as usize]
+    };
+    let lean = triangles.iter().map(lean).sum::<f64>() / area;
+    Face { shape, triangles, area, concave, lean }
 }
 
 /// The faces of one group as they are being found.

@@ -199,6 +199,7 @@ pub fn deflate(
     let replacement = Replacement {
         solid: &solid,
         segments: &segments,
+        faces: &faces,
         walls: &walls,
         middles: &middles,
         blends: &blends,

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::assemble::Moved;
 use super::blends::{Belongs, Blends};
+use super::faces::Faces;
 use super::flush::Flush;
 use super::middle::{Middle, Middles};
 use super::plane::Plane;
@@ -44,12 +45,20 @@ const REACH: f64 = 0.75;
 const STEEP: f64 = 0.3;
 /// A wall is smooth at a node if its facets lean by less than this from their mean, in radians.
 const SMOOTH: f64 = 20.0 / 180.0 * std::f64::consts::PI;
+/// A round face is finely meshed if its facets lean by less than this from it, in radians.
+const FINE: f64 = 4.0 / 180.0 * std::f64::consts::PI;
+/// Round faces run smoothly into each other if their normals are no farther apart, in radians.
+const ONE: f64 = 2.0 / 180.0 * std::f64::consts::PI;
 /// Rounds of moving the nodes of facets that turned over upright.
 const TURNED_ROUNDS: usize = 4;
 /// Rounds of taking nodes along that no wall holds.
 const ALONG_ROUNDS: usize = 60;
 /// It ends when none moves by more than this share of the solid's size.
 const ALONG_SETTLED: f64 = 1e-7;
+/// A chain of edges is straight as long as it turns by less than this, in radians.
+const STRAIGHT: f64 = 3.0 / 180.0 * std::f64::consts::PI;
+/// The shift of its end is taken up over so many times its length at least.
+const ROOM: f64 = 3.0;
 /// A chain of edges that turns by more than this, in radians, has a corner there.
 const CORNER_TURN: f64 = std::f64::consts::FRAC_PI_4;
 
@@ -67,6 +76,7 @@ pub(super) enum Way {
 pub(super) struct Replacement<'a> {
     pub(super) solid: &'a Solid,
     pub(super) segments: &'a Segments,
+    pub(super) faces: &'a Faces,
     pub(super) walls: &'a Walls,
     pub(super) middles: &'a Middles,
     pub(super) blends: &'a Blends,
@@ -174,21 +184,32 @@ impl Replacement<'_> {
                 let (a, b) = (chain[k.saturating_sub(1)], chain[(k + 1).min(last)]);
                 (at(b) - at(a)).normalize_or_zero()
             };
-            let shift = |k: usize| (moved[chain[k] as usize] - at(chain[k])).dot(tangent(k));
-            let (first_shift, last_shift) = (shift(0), shift(last));
+            // How much farther the ends move along it than the nodes beside them do by themselves.
+            let way = |k: usize| moved[chain[k] as usize] - at(chain[k]);
+            let shift = |end: usize, beside: usize| (way(end) - way(beside)).dot(tangent(end));
+            let (first_shift, last_shift) = (shift(0, 1), shift(last, last - 1));
             let mut lengths = vec![0.0];
             for pair in chain.windows(2) {
                 lengths.push(lengths[lengths.len() - 1] + at(pair[0]).distance(at(pair[1])));
             }
-            let whole = lengths[last].max(f64::MIN_POSITIVE);
+            let whole = lengths[last];
+            // What a border runs straight takes up the shift of its end; where it bends, a shift would lead away from it.
+            let taken_up = |end: usize, shift: f64| {
+                let run = |k: &usize| tangent(*k).dot(tangent(end)) > STRAIGHT.cos();
+                let far = |k: usize| (lengths[k] - lengths[end]).abs();
+                let straight = if end == 0 {
+                    (1..=last).take_while(run).last().map_or(0.0, far)
+                } else {
+                    (0..last).rev().take_while(run).last().map_or(0.0, far)
+                };
+                straight.max((ROOM * shift.abs()).min(whole)).max(f64::MIN_POSITIVE)
+            };
+            let (first_run, last_run) = (taken_up(0, first_shift), taken_up(last, last_shift));
             let places: Vec<DVec3> = (1..last)
                 .map(|k| {
-                    let s = lengths[k] / whole;
-                    self.place(
-                        chain[k],
-                        tangent(k) * (first_shift * (1.0 - s) + last_shift * s),
-                        ways[chain[k] as usize],
-                    )
+                    let first = first_shift * (1.0 - lengths[k] / first_run).max(0.0);
+                    let last = last_shift * (1.0 - (whole - lengths[k]) / last_run).max(0.0);
+                    self.place(chain[k], tangent(k) * (first + last), ways[chain[k] as usize])
                 })
                 .collect();
             for (k, place) in (1..last).zip(places) {
@@ -251,6 +272,12 @@ impl Replacement<'_> {
             return middle;
         }
         let start = on_planes(p + along, &planes);
+        if wanted.end_facets.is_empty()
+            && !wanted.facets.is_empty()
+            && let Some(normal) = self.normal_of_faces(v)
+        {
+            return along_normal(start, &planes, &wanted.facets, normal);
+        }
         // Folds between the facets of an end lead to wherever its mesher put nodes; the end itself stands upright on walls.
         let way = if wanted.facets.is_empty() { Way::Upright } else { way };
         wanted.facets.append(&mut wanted.end_facets);
@@ -259,6 +286,32 @@ impl Replacement<'_> {
         } else {
             beside_facets(start, &planes, &wanted.facets, wanted.thickness, way)
         }
+    }
+
+    /// The normal of the round faces of walls that meet at a node, if they run smoothly into each other there and their facets are fine: it
+    /// knows nothing of how these facets lie, and on the way to the middle of a small fillet, many times its radius, they pass each other.
+    fn normal_of_faces(&self, v: u32) -> Option<DVec3> {
+        let mut sum = DVec3::ZERO;
+        let mut first: Option<DVec3> = None;
+        for &corner in self.star.of(v) {
+            let f = corner / 3;
+            let group = self.segments.of(f);
+            if !self.is_wall(&Belongs { group, at: v }) {
+                continue;
+            }
+            let middle = self.corners[f as usize][corner as usize % 3]?;
+            if middle.exact.is_some() {
+                continue;
+            }
+            let face = self.faces.at(f);
+            let outward = face.shape.outward(self.solid.mesh.positions[v as usize]);
+            let facing = if face.concave { -outward } else { outward };
+            if face.lean > FINE || facing.dot(*first.get_or_insert(facing)) < ONE.cos() {
+                return None;
+            }
+            sum += facing;
+        }
+        sum.try_normalize()
     }
 
     /// The middle between twins, if it is so for all that meets there.
@@ -454,26 +507,46 @@ fn step_to(p: DVec3, planes: &[Plane]) -> DVec3 {
     }
 }
 
-/// The point on the planes that is as near to the planes of facets as can be (least squares), and otherwise beside `p`.
-fn beside_facets(p: DVec3, planes: &[Plane], facets: &[(Plane, f64)], thickness: f64, way: Way) -> DVec3 {
-    // What the planes leave free.
-    let free = match planes {
-        [] => DMat3::IDENTITY,
-        [a] => DMat3::IDENTITY - outer(a.normal),
-        [a, b] => outer(a.normal.cross(b.normal).normalize_or_zero()),
-        _ => return p,
-    };
-    let weight: f64 = facets.iter().map(|f| f.1).sum();
-    let normal: DVec3 = facets.iter().map(|(plane, w)| plane.normal * *w).sum();
-    // Start where the mean facet's plane is, so that staying costs nothing on a smooth wall.
-    let direction = (free * normal).normalize_or_zero();
-    let (mut above, mut below) = (0.0, 0.0);
+/// The point on the planes that is reached along a normal and is as near to the planes of facets as can be.
+fn along_normal(start: DVec3, planes: &[Plane], facets: &[(Plane, f64)], normal: DVec3) -> DVec3 {
+    let Some(free) = free(planes) else { return start };
+    let way = free * normal;
+    if way.length() < STEEP {
+        return start;
+    }
+    on_planes(to_mean(start, way.normalize(), facets), planes)
+}
+
+/// What planes leave free; `None` if that is nothing.
+fn free(planes: &[Plane]) -> Option<DMat3> {
+    match planes {
+        [] => Some(DMat3::IDENTITY),
+        [a] => Some(DMat3::IDENTITY - outer(a.normal)),
+        [a, b] => Some(outer(a.normal.cross(b.normal).normalize_or_zero())),
+        _ => None,
+    }
+}
+
+/// Goes to where the mean facet's plane is; nowhere if that runs along the direction.
+fn to_mean(p: DVec3, direction: DVec3, facets: &[(Plane, f64)]) -> DVec3 {
+    let (mut above, mut below, mut weight) = (0.0, 0.0, 0.0);
     for (plane, w) in facets {
         let slope = plane.normal.dot(direction);
         above += w * slope * plane.height(p);
         below += w * slope * slope;
+        weight += w;
     }
-    let start = if below > STEEP * STEEP * weight { p - direction * (above / below) } else { p };
+    if below > STEEP * STEEP * weight { p - direction * (above / below) } else { p }
+}
+
+/// The point on the planes that is as near to the planes of facets as can be (least squares), and otherwise beside `p`.
+fn beside_facets(p: DVec3, planes: &[Plane], facets: &[(Plane, f64)], thickness: f64, way: Way) -> DVec3 {
+    let Some(free) = free(planes) else { return p };
+    let weight: f64 = facets.iter().map(|f| f.1).sum();
+    let normal: DVec3 = facets.iter().map(|(plane, w)| plane.normal * *w).sum();
+    // Start where the mean facet's plane is, so that staying costs nothing on a smooth wall.
+    let direction = (free * normal).normalize_or_zero();
+    let start = to_mean(p, direction, facets);
     if way == Way::Upright && facets.iter().all(|(plane, _)| plane.normal.dot(direction) > SMOOTH.cos()) {
         return on_planes(start, planes);
     }
