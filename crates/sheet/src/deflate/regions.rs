@@ -34,7 +34,7 @@ const NONE: u32 = u32::MAX;
 
 /// Sets of two and more faces that lie in one plane, whose nodes are off it by up to `tolerance` mm. O(n log n).
 pub(super) fn plane_regions(solid: &Solid, tolerance: f64) -> Vec<Vec<u32>> {
-    let mut regions = Regions::new(solid, tolerance).faces;
+    let mut regions = Regions::new(solid, tolerance, true).faces;
     regions.retain(|faces| faces.len() > 1);
     regions
 }
@@ -115,15 +115,15 @@ struct Beside {
 }
 
 impl Regions {
-    /// Finds them; nodes are off their planes by up to `tolerance` mm. O(n log n).
-    pub(super) fn new(solid: &Solid, tolerance: f64) -> Self {
+    /// Finds them; nodes are off their planes by up to `tolerance` mm, `rounded` ones by so much that planes of small faces say little of
+    /// what is far from these. O(n log n).
+    pub(super) fn new(solid: &Solid, tolerance: f64, rounded: bool) -> Self {
         let n = solid.len();
         // Large faces first: their planes are the surest.
         let mut seeds: Vec<u32> = (0..n).collect();
         seeds.par_sort_unstable_by(|f, g| {
             solid.areas[*g as usize].total_cmp(&solid.areas[*f as usize]).then(f.cmp(g))
         });
-        let rounded = tolerance > COPLANAR * solid.size;
         let mut of_face = vec![NONE; n as usize];
         let mut faces: Vec<Vec<u32>> = Vec::new();
         let mut stack = Vec::new();

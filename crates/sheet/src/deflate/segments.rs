@@ -32,7 +32,7 @@ pub(super) struct Segments {
 impl Segments {
     /// Cuts a skin into groups. O(n log n).
     pub(super) fn new(solid: &Solid) -> Self {
-        let regions = Regions::new(solid, COPLANAR * solid.size);
+        let regions = Regions::new(solid, COPLANAR * solid.size, false);
         let is_plane = regions.planes(solid);
         let mut of_face = vec![NONE; solid.len() as usize];
         let mut groups = Vec::new();

@@ -14,7 +14,7 @@ use super::solid::Solid;
 /// Files that round by more than this share of the solid's size hold shapes that are rough, not rounded.
 const MOST: f64 = 2e-5;
 /// Less than this share of it does no harm.
-const FINE: f64 = 1e-7;
+const FINE: f64 = 4e-8;
 /// Nodes are off their planes by up to so many times what one coordinate is off by.
 const WITHIN: f64 = 3.0;
 /// Faces may be in one plane if that of one is off by no more than so many times that at the other, and leans by no more than this.
@@ -56,7 +56,7 @@ pub(super) fn straightened(solid: Solid) -> Solid {
             to
         })
         .collect();
-    if farthest < COPLANAR / WITHIN * solid.size {
+    if farthest < FINE * solid.size {
         return solid;
     }
     // Needles that rounding had turned may come to lie on their neighbours.

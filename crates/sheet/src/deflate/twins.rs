@@ -28,6 +28,11 @@ const ASIDE: f64 = 1.2;
 /// They are so far aside, over the thickness, without any.
 const HARDLY_ASIDE: f64 = 0.02;
 
+/// Folds of twins are alike up to this, in radians, or this share of the larger; but one beyond that angle may be a fan's.
+const FOLDS_OFF: f64 = 1.0 / 180.0 * std::f64::consts::PI;
+const ALIKE: f64 = 0.4;
+const SHARP_FOLD: f64 = 15.0 / 180.0 * std::f64::consts::PI;
+
 /// Twin of a face: the other face, and which of its corners belongs to the first one.
 type Twin = (u32, u32);
 
@@ -234,5 +239,16 @@ fn is_pair(solid: &Solid, walls: &Walls, star: &Star, f: u32, twin: Twin) -> boo
     let at = |f: u32, k: usize| solid.mesh.positions[solid.mesh.faces[f as usize][k] as usize];
     let [a, b, c] = [0, 1, 2].map(|k: u32| at(f, k as usize).midpoint(at(g, opposite(first, k))));
     let upright = (b - a).cross(c - a).dot(solid.normals[f as usize]) > 0.0;
-    even && near && upright
+    even && near && upright && (0..3).all(|k| folds_alike(solid, f, twin, k))
+}
+
+/// Whether both faces fold alike at side `k`: offsets do, but chords of one round face and more or fewer of the other do not. Beyond a sharp
+/// fold one side may have a fan.
+fn folds_alike(solid: &Solid, f: u32, (g, first): Twin, k: u32) -> bool {
+    let fold = |h: u32| {
+        let normals = [h / 3, solid.across(h)].map(|f| solid.normals[f as usize]);
+        normals[0].angle_between(normals[1])
+    };
+    let (one, other) = (fold(3 * f + k), fold(3 * g + opposite(first, (k + 1) % 3) as u32));
+    one.max(other) > SHARP_FOLD || (one - other).abs() < FOLDS_OFF.max(ALIKE * one.max(other))
 }

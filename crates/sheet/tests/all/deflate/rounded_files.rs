@@ -1,6 +1,6 @@
 //! Mid-surfaces of solids whose coordinates were rounded, as files do.
 
-use crate::deflate::solid_models::{boxed, plate_with_hole, prism};
+use crate::deflate::solid_models::{boxed, plate_with_hole, prism, revolved};
 use mesh_kernel::TriMesh;
 use mesh_kernel::glam::{DQuat, DVec3, EulerRot};
 use sheet::deflate::{DeflateOptions, Deflated, Nobody, deflate};
@@ -73,5 +73,18 @@ fn files_that_round_have_the_same_middles() {
             let off = report.thickness.mean / exact.thickness.mean - 1.0;
             assert!(off.abs() < 1e-3, "{name}, {way}: the thickness is off by {off}");
         }
+    }
+}
+
+/// One and a half times its size from the origin single precision hardly rounds, but planes of narrow faces lean by it.
+#[test]
+fn a_rim_beside_the_origin_is_one_plane() {
+    let beside: Rounding = |p| (p + DVec3::new(160.0, 120.0, 95.0)).map(single);
+    for steps in [96, 240] {
+        let tube = revolved(&[[53.0, 0.0], [55.0, 0.0], [55.0, 40.0], [53.0, 40.0]], steps, true);
+        let report = deflated(&askew(&tube, beside)).report;
+        let kinds: Vec<&str> = report.faces.iter().map(|f| f.shape.name()).collect();
+        let planes = kinds.iter().filter(|k| **k == "plane").count();
+        assert_eq!((planes, kinds.len()), (2, 4), "{steps} steps: {kinds:?}");
     }
 }
