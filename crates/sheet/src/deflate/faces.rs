@@ -101,7 +101,7 @@ impl Faces {
 
 fn face(solid: &Solid, shape: Shape, mut triangles: Vec<u32>) -> Face {
     triangles.sort_unstable();
-    let area = triangles.iter().map(|f| solid.areas[*f as usize]).sum();
+    let area: f64 = triangles.iter().map(|f| solid.areas[*f as usize]).sum();
     let out = |f: &u32| {
         shape.outward(solid.centroid(*f)).dot(solid.normals[*f as usize]) * solid.areas[*f as usize]
     };
@@ -111,7 +111,7 @@ fn face(solid: &Solid, shape: Shape, mut triangles: Vec<u32>) -> Face {
         let lean = |p: DVec3| shape.outward(p).dot(normal).abs().min(1.0).acos();
         solid.mesh.corners(*f).map(lean).iter().sum::<f64>() / 3.0 * solid.areas[*f as usize]
     };
-    let lean = triangles.iter().map(lean).sum::<f64>() / area;
+    let lean = triangles.iter().map(lean).sum::<f64>() / area.max(f64::MIN_POSITIVE);
     Face { shape, triangles, area, concave, lean }
 }
 

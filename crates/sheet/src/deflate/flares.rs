@@ -3,6 +3,7 @@
 use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::faces::{Face, Faces};
@@ -24,6 +25,10 @@ const RIM: f64 = 0.3;
 /// The inside of a bend is parallel to the outside up to this, in radians, on this share of it.
 const ALONG: f64 = 20.0 / 180.0 * std::f64::consts::PI;
 const MOST: f64 = 0.6;
+/// The same against a round about another centre; it is opposite to this share of the inside at least, and turns by this there, in radians.
+const ALONG_ROUND: f64 = 32.0 / 180.0 * std::f64::consts::PI;
+const ROUND: f64 = 0.1;
+const TURNS: f64 = 30.0 / 180.0 * std::f64::consts::PI;
 /// A part of a wall is more than this share of its group; less is parallel to what is opposite by chance.
 const PIECE: f64 = 1e-2;
 /// Looks beside a border begin this share of the way from it to the middle of the face.
@@ -233,7 +238,30 @@ impl Walls {
 
     /// Whether most of a face is nearly parallel to what is opposite: a fillet is so only where it ends.
     fn is_inside_of_a_bend(&self, solid: &Solid, segments: &Segments, triangles: &[u32]) -> bool {
-        self.faces_along(solid, segments, triangles, &|_| true)
+        self.faces_along(solid, segments, triangles, &|_| true) || self.turns_with_a_round(solid, triangles)
+    }
+
+    /// Whether a face turns from one wall to another as a round opposite to it does, but about another centre: against its middle it has the
+    /// round, and against its ends the walls that this runs into.
+    fn turns_with_a_round(&self, solid: &Solid, triangles: &[u32]) -> bool {
+        let (mut whole, mut along, mut round) = (0.0, 0.0, 0.0);
+        let mut turned: Option<(DVec3, f64)> = None;
+        for &f in triangles {
+            let (normal, area) = (solid.normals[f as usize], solid.areas[f as usize]);
+            whole += area;
+            let Some(hit) = self.first(solid, solid.centroid(f), -normal) else { continue };
+            let (beyond, is_round) = (-solid.normals[hit.face as usize], self.is_proud[hit.face as usize]);
+            let lean = normal.dot(beyond);
+            if is_round && lean > ALONG_ROUND.cos() {
+                round += area;
+                let (first, least) = turned.unwrap_or((beyond, 1.0));
+                turned = Some((first, least.min(first.dot(beyond))));
+            } else if !is_round && lean > ALONG.cos() {
+                along += area;
+            }
+        }
+        let turns = turned.is_some_and(|(_, least)| least < TURNS.cos());
+        turns && round > ROUND * whole && round + along > MOST * whole
     }
 
     /// The same, of what is opposite and counts.

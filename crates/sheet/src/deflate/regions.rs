@@ -115,8 +115,8 @@ struct Beside {
 }
 
 impl Regions {
-    /// Finds them; nodes are off their planes by up to `tolerance` mm, `rounded` ones by so much that planes of small faces say little of
-    /// what is far from these. O(n log n).
+    /// Finds them; nodes are off their planes by up to `tolerance` mm. `rounded`: planes of small faces say little of what is far from these,
+    /// so that they are fitted anew as regions grow, and needles lie in any plane, however turned. O(n log n).
     pub(super) fn new(solid: &Solid, tolerance: f64, rounded: bool) -> Self {
         let n = solid.len();
         // Large faces first: their planes are the surest.

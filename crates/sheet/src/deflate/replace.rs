@@ -45,7 +45,7 @@ const REACH: f64 = 0.75;
 const STEEP: f64 = 0.3;
 /// A wall is smooth at a node if its facets lean by less than this from their mean, in radians.
 const SMOOTH: f64 = 20.0 / 180.0 * std::f64::consts::PI;
-/// A round face is finely meshed if its facets lean by less than this from it, in radians.
+/// A round face is finely meshed if its facets lean by no more than this from it in the mean, in radians.
 const FINE: f64 = 4.0 / 180.0 * std::f64::consts::PI;
 /// Round faces run smoothly into each other if their normals are no farther apart, in radians.
 const ONE: f64 = 2.0 / 180.0 * std::f64::consts::PI;
@@ -193,7 +193,8 @@ impl Replacement<'_> {
                 lengths.push(lengths[lengths.len() - 1] + at(pair[0]).distance(at(pair[1])));
             }
             let whole = lengths[last];
-            // What a border runs straight takes up the shift of its end; where it bends, a shift would lead away from it.
+            // What a border runs straight takes up the shift of its end; where it bends, a shift would lead away from it, unless there is no
+            // room before.
             let taken_up = |end: usize, shift: f64| {
                 let run = |k: &usize| tangent(*k).dot(tangent(end)) > STRAIGHT.cos();
                 let far = |k: usize| (lengths[k] - lengths[end]).abs();
@@ -272,11 +273,15 @@ impl Replacement<'_> {
             return middle;
         }
         let start = on_planes(p + along, &planes);
-        if wanted.end_facets.is_empty()
+        // Round walls behind a blend are met, not gone along.
+        let behind = self.blends.behind(v).iter().all(|b| self.segments.group(b.group).plane.is_some());
+        if behind
+            && wanted.end_facets.is_empty()
             && !wanted.facets.is_empty()
             && let Some(normal) = self.normal_of_faces(v)
+            && let Some(place) = along_normal(start, &planes, &wanted.facets, normal)
         {
-            return along_normal(start, &planes, &wanted.facets, normal);
+            return place;
         }
         // Folds between the facets of an end lead to wherever its mesher put nodes; the end itself stands upright on walls.
         let way = if wanted.facets.is_empty() { Way::Upright } else { way };
@@ -306,7 +311,7 @@ impl Replacement<'_> {
             let face = self.faces.at(f);
             let outward = face.shape.outward(self.solid.mesh.positions[v as usize]);
             let facing = if face.concave { -outward } else { outward };
-            if face.lean > FINE || facing.dot(*first.get_or_insert(facing)) < ONE.cos() {
+            if !(face.lean <= FINE) || facing.dot(*first.get_or_insert(facing)) < ONE.cos() {
                 return None;
             }
             sum += facing;
@@ -507,14 +512,15 @@ fn step_to(p: DVec3, planes: &[Plane]) -> DVec3 {
     }
 }
 
-/// The point on the planes that is reached along a normal and is as near to the planes of facets as can be.
-fn along_normal(start: DVec3, planes: &[Plane], facets: &[(Plane, f64)], normal: DVec3) -> DVec3 {
-    let Some(free) = free(planes) else { return start };
+/// The point on the planes that is reached along a normal and is as near to the planes of facets as can be; `None` where it runs into a plane
+/// at a small angle, and the point is where both meet.
+fn along_normal(start: DVec3, planes: &[Plane], facets: &[(Plane, f64)], normal: DVec3) -> Option<DVec3> {
+    let Some(free) = free(planes) else { return Some(start) };
     let way = free * normal;
-    if way.length() < STEEP {
-        return start;
+    if way.length() < ONE.sin() {
+        return Some(start);
     }
-    on_planes(to_mean(start, way.normalize(), facets), planes)
+    (way.length() > STEEP).then(|| on_planes(to_mean(start, way.normalize(), facets), planes))
 }
 
 /// What planes leave free; `None` if that is nothing.

@@ -1,8 +1,8 @@
 //! Plane faces of files that round are made plane again.
 //!
-//! Coordinates with three decimals or six digits, or far from the origin in single precision, are off by more than exact planes
+//! Coordinates with three decimals or six digits, or beside the origin in single precision, are off by more than exact planes
 //! bear: faces would fall into splinters that nearly lie in one plane. Nodes go back to where the planes of their faces meet, if
-//! these are no farther than the file rounds.
+//! these are no farther than some times what the file rounds by.
 
 use glam::DVec3;
 
@@ -20,6 +20,8 @@ const WITHIN: f64 = 3.0;
 /// Faces may be in one plane if that of one is off by no more than so many times that at the other, and leans by no more than this.
 const FAR: f64 = 30.0;
 const LEAN: f64 = 0.01;
+/// One that has more than so many times the faces of another tells by itself whether that is in it.
+const MUCH_LARGER: usize = 4;
 /// Regions with more than this share of the area may have others in their plane.
 const LARGE: f64 = 5e-4;
 /// Halves of the last place in single precision, and twice that where decimals went through it.
@@ -51,7 +53,7 @@ pub(super) fn straightened(solid: Solid) -> Solid {
         .map(|(p, own)| {
             // The largest face first: planes are numbered so.
             own.sort_unstable();
-            let to = place(*p, own.iter().map(|k| planes[*k as usize]), WITHIN * tolerance);
+            let to = place(*p, own.iter().map(|k| planes[*k as usize]), WITHIN * WITHIN * rounding);
             farthest = farthest.max(to.distance(*p));
             to
         })
@@ -97,35 +99,58 @@ fn planes(solid: &Solid, regions: &[Vec<u32>], tolerance: f64) -> (Vec<Plane>, V
     let mut order: Vec<usize> = (0..regions.len()).collect();
     order.sort_by(|a, b| areas[*b].total_cmp(&areas[*a]).then(a.cmp(b)));
     let large = LARGE * areas.iter().sum::<f64>();
-    let mut found: Vec<(Plane, Vec<u32>)> = Vec::new();
+    let mut found: Vec<Found> = Vec::new();
     let mut searched = 0;
     let mut of_region = vec![0; regions.len()];
     for k in order {
         let own = fitted_plane(solid, &regions[k]);
         let middle = solid.centroid(regions[k][0]);
-        // Far from a small face its plane is off; together with the other face it is not.
-        let holds = |(plane, faces): &(Plane, Vec<u32>)| {
-            plane.normal.cross(own.normal).length() < LEAN
-                && plane.height(middle).abs() < FAR * tolerance
-                && {
-                    let both = [faces.as_slice(), &regions[k]].concat();
-                    let plane = fitted_plane(solid, &both);
-                    let mut nodes = both.iter().flat_map(|f| solid.mesh.corners(*f));
-                    nodes.all(|p| plane.height(p).abs() < tolerance)
-                }
+        let within = |faces: &[u32], plane: &Plane| {
+            let mut nodes = faces.iter().flat_map(|f| solid.mesh.corners(*f));
+            nodes.all(|p| plane.height(p).abs() < tolerance)
+        };
+        let holds = |found: &Found| {
+            let near = found.plane.normal.cross(own.normal).length() < LEAN
+                && found.plane.height(middle).abs() < FAR * tolerance;
+            // Far from a small face its plane is off; together with the other face it is not. What is much larger tells it alone.
+            near && if found.faces.len() > MUCH_LARGER * regions[k].len() {
+                within(&regions[k], &found.plane)
+            } else {
+                let both = [found.faces.as_slice(), &regions[k]].concat();
+                within(&both, &fitted_plane(solid, &both))
+            }
         };
         let number = found[..searched].iter().position(holds).unwrap_or_else(|| {
-            found.push((own, Vec::new()));
+            found.push(Found { plane: own, faces: Vec::new(), fitted: 0 });
             if areas[k] > large {
                 searched = found.len();
             }
             found.len() - 1
         });
-        found[number].1.extend(&regions[k]);
+        found[number].add(solid, &regions[k]);
         of_region[k] = number as u32;
     }
     // All that is in a plane tells it best.
-    (found.iter().map(|(_, faces)| fitted_plane(solid, faces)).collect(), of_region)
+    (found.iter().map(|found| fitted_plane(solid, &found.faces)).collect(), of_region)
+}
+
+/// A plane with the faces that are known to be in it.
+struct Found {
+    plane: Plane,
+    faces: Vec<u32>,
+    /// How many of the faces it was fitted to.
+    fitted: usize,
+}
+
+impl Found {
+    /// Adds faces; the plane is fitted anew as often as they double.
+    fn add(&mut self, solid: &Solid, faces: &[u32]) {
+        self.faces.extend(faces);
+        if self.faces.len() >= 2 * self.fitted {
+            self.plane = fitted_plane(solid, &self.faces);
+            self.fitted = self.faces.len();
+        }
+    }
 }
 
 /// A node on as many of its planes as meet in one point near it.
