@@ -311,7 +311,7 @@ impl Replacement<'_> {
             let face = self.faces.at(f);
             let outward = face.shape.outward(self.solid.mesh.positions[v as usize]);
             let facing = if face.concave { -outward } else { outward };
-            if !(face.lean <= FINE) || facing.dot(*first.get_or_insert(facing)) < ONE.cos() {
+            if face.lean > FINE || facing.dot(*first.get_or_insert(facing)) < ONE.cos() {
                 return None;
             }
             sum += facing;
