@@ -1,11 +1,11 @@
 //! Round walls whose two sides are meshed each in its own way, on plates: collars of holes.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_PI_6, PI, TAU};
 
 use crate::deflate::solid_models::{revolved, turned};
-use crate::deflate::support::{deflated, has_topology};
+use crate::deflate::support::{deflated, has_topology, near};
 use mesh_kernel::TriMesh;
-use mesh_kernel::glam::DVec3;
+use mesh_kernel::glam::{DVec2, DVec3};
 use sheet::deflate::{DeflateOptions, Nobody, deflate};
 
 /// Rings about z, each joined to the next one and the last to the first: radius, height, and how many nodes.
@@ -96,4 +96,42 @@ fn the_middle_of_a_web_with_draft_is_flat() {
             }
         }
     }
+}
+
+/// The round between the two sides of a corner.
+fn fillet(before: [f64; 2], corner: [f64; 2], after: [f64; 2], radius: f64, chords: u32) -> Vec<[f64; 2]> {
+    let [p, q, r] = [before, corner, after].map(|[x, y]| DVec2::new(x, y));
+    let (a, b) = ((p - q).normalize(), (r - q).normalize());
+    let half = a.angle_to(b).abs() / 2.0;
+    let centre = q + (a + b).normalize() * (radius / half.sin());
+    let [start, end] = [a, b].map(|side| q + side * (radius / half.tan()) - centre);
+    let turn = (PI - 2.0 * half) * start.perp_dot(end).signum();
+    let at = |k: u32| centre + DVec2::from_angle(turn * f64::from(k) / f64::from(chords)).rotate(start);
+    (0..=chords).map(|k| at(k).to_array()).collect()
+}
+
+/// A tube of radius 20 stands on a slant ring, with fillets about its foot: what is behind these is round as well as the tube, and both
+/// middles are met, not only one of them gone along.
+#[test]
+fn a_tube_on_a_cone_ends_on_its_middle() {
+    let slope = FRAC_PI_6.tan();
+    let (top, below) = (|r: f64| [r, slope * (40.0 - r)], 2.0 / FRAC_PI_6.cos());
+    let under = |r: f64| [r, slope * (40.0 - r) - below];
+    let (inner, outer, high) = (19.2, 20.8, slope * 20.0 + 20.0);
+    let foot = fillet(top(40.0), top(outer), [outer, high], 1.0, 8);
+    let inside = fillet([inner, high], top(inner), top(8.0), 1.0, 8);
+    let profile: Vec<[f64; 2]> = [under(8.0), under(40.0), top(40.0)]
+        .into_iter()
+        .chain(foot)
+        .chain([[outer, high], [inner, high]])
+        .chain(inside)
+        .chain([top(8.0)])
+        .collect();
+    let thin = deflated(&revolved(&profile, 60, true));
+    assert_eq!((thin.report.self_intersections, thin.report.lost_edges), (0, 0));
+    // In chords: the ring, halfway down through its ends, and the tube from the middle of the ring on.
+    let chord = 120.0 * (PI / 60.0).sin();
+    let ring = chord * (40.0 * 40.0 - 8.0 * 8.0) / 2.0 * (slope * slope + (PI / 60.0).cos().powi(2)).sqrt();
+    let tube = chord * 20.0 * (high - slope * 20.0 + below / 2.0);
+    near(thin.report.area, ring + tube, 1e-4);
 }

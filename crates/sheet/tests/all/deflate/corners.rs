@@ -82,7 +82,7 @@ const SIGNS: [[f64; 2]; 4] = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]
 
 /// The skin of a box about the z axis without its top, seen from inside: rings of nodes from the rim down to the floor, with a quarter of a
 /// circle in each of the four corners. The rim is the first ring.
-fn tub(half: DVec3, floor: f64, upright: f64, about_floor: f64, [chords, down]: [u32; 2]) -> TriMesh {
+fn tub(half: DVec3, floor: f64, [upright, about_floor]: [f64; 2], [chords, down]: [u32; 2]) -> TriMesh {
     let mut mesh = TriMesh::new(Vec::new(), Vec::new());
     let quarter = |k: u32, chords: u32| std::f64::consts::FRAC_PI_2 * f64::from(k) / f64::from(chords);
     let down = (0..=down)
@@ -118,7 +118,7 @@ fn tub(half: DVec3, floor: f64, upright: f64, about_floor: f64, [chords, down]: 
 /// An open box that is sharp outside, with fillets in its upright edges inside and others around its floor.
 fn cast_box(upright: f64, about_floor: f64, chords: u32) -> TriMesh {
     let within = DVec3::new(HALF.x - WALL, HALF.y - WALL, HALF.z);
-    let mut mesh = tub(within, WALL - HALF.z, upright, about_floor, [chords, chords]);
+    let mut mesh = tub(within, WALL - HALF.z, [upright, about_floor], [chords, chords]);
     let (n, per_ring) = (mesh.positions.len() as u32, 4 * (chords + 1));
     for z in [-HALF.z, HALF.z] {
         mesh.positions.extend(SIGNS.map(|[x, y]| DVec3::new(HALF.x * x, HALF.y * y, z)));
@@ -139,12 +139,12 @@ fn cast_box(upright: f64, about_floor: f64, chords: u32) -> TriMesh {
     mesh
 }
 
-/// An open box with the same wall all over, whose upright edges have larger rounds than those about the floor; both radii are inside.
-/// `down`: in how many chords the latter are inside and outside.
-fn moulded_box(upright: f64, about_floor: f64, chords: u32, down: [u32; 2]) -> TriMesh {
-    let within = DVec3::new(HALF.x - WALL, HALF.y - WALL, HALF.z);
-    let mut mesh = tub(within, WALL - HALF.z, upright, about_floor, [chords, down[0]]);
-    let outside = tub(HALF, -HALF.z, upright + WALL, about_floor + WALL, [chords, down[1]]);
+/// An open box with rounds and fillets; `within` and `outside`: the radii of its upright edges and about its floor. In how many chords, is
+/// said of upright edges and, `down`, about the floor inside and outside.
+fn moulded_box(within: [f64; 2], outside: [f64; 2], chords: u32, down: [u32; 2]) -> TriMesh {
+    let hollow = DVec3::new(HALF.x - WALL, HALF.y - WALL, HALF.z);
+    let mut mesh = tub(hollow, WALL - HALF.z, within, [chords, down[0]]);
+    let outside = tub(HALF, -HALF.z, outside, [chords, down[1]]);
     let (n, per_ring) = (mesh.positions.len() as u32, 4 * (chords + 1));
     mesh.positions.extend(outside.positions);
     mesh.faces.extend(outside.faces.iter().map(|[a, b, c]| [n + a, n + c, n + b]));
@@ -207,6 +207,21 @@ fn corners_of_other_centres_are_one_sheet() {
     }
 }
 
+/// The inside is parallel to the outside only where it begins, ends and, if that is round, in its middle; some of its faces are not by
+/// themselves, as those about the floor.
+#[test]
+fn bends_may_be_larger_inside_than_outside() {
+    for (inner, outer, chords) in [(3.0, 2.0, 6), (3.0, 2.0, 12), (3.0, 2.0, 24), (4.0, 2.0, 12)] {
+        let solid = moulded_box([5.0, inner], [6.0, outer], chords, [chords, chords]);
+        let thin = deflate(&solid, &DeflateOptions::default(), &Nobody).unwrap();
+        has_topology(&thin, [1, 0, 1, 1]);
+        let r = &thin.report;
+        let sheet: f64 =
+            (0..).zip(&thin.thickness).map(|(f, t)| thin.sheet.area_normal(f).length() / 2.0 * t).sum();
+        near(sheet, r.solid_volume, 0.01);
+    }
+}
+
 #[test]
 fn specks_of_a_fine_tessellation_are_no_plane_faces() {
     for (outer, inner, chords) in [(3.0, 2.0, 20), (4.0, 0.5, 16)] {
@@ -238,7 +253,7 @@ fn specks_of_a_fine_tessellation_are_no_plane_faces() {
 fn a_rib_moves_no_border_round_a_finely_meshed_corner() {
     let rib = block([-38.5, -0.85, -13.5], [38.5, 0.85, 0.0]);
     for (chords, down) in [(16, [16, 6]), (24, [30, 8]), (32, [32, 10]), (20, [40, 12])] {
-        let solid = united(&[moulded_box(2.5, 0.5, chords, down), rib.clone()]);
+        let solid = united(&[moulded_box([2.5, 0.5], [4.5, 2.5], chords, down), rib.clone()]);
         let thin = deflate(&solid, &DeflateOptions::default(), &Nobody).unwrap();
         has_topology(&thin, [2, 1, 1, 1]);
         near(thin.report.area, 13146.1, 1e-3);
