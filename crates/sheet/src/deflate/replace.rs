@@ -274,8 +274,9 @@ impl Replacement<'_> {
         }
         let start = on_planes(p + along, &planes);
         // Round walls behind a blend are met, not gone along.
-        let behind = self.blends.behind(v).iter().all(|b| self.segments.group(b.group).plane.is_some());
-        if behind
+        let planes_behind =
+            self.blends.behind(v).iter().all(|b| self.segments.group(b.group).plane.is_some());
+        if planes_behind
             && wanted.end_facets.is_empty()
             && !wanted.facets.is_empty()
             && let Some(normal) = self.normal_of_faces(v)

@@ -193,9 +193,9 @@ impl Trials<'_> {
     }
 
     fn made(&self, sheet: Sheet) -> Made {
-        let Self { solid, segments, walls, exact, options, .. } = *self;
+        let Self { solid, segments, walls, .. } = *self;
         let crossing = crossing_faces(&sheet, |_| true);
-        let astray = astray(&sheet, solid, segments, walls, options.edge_length.map(|_| exact));
+        let astray = astray(&sheet, solid, segments, walls);
         Made { sheet, crossing, astray }
     }
 }

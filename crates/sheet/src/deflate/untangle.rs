@@ -12,7 +12,6 @@ use mesh_kernel::query::Crossings;
 use rayon::prelude::*;
 
 use super::assemble::{Sheet, Source};
-use super::exact::Exact;
 use super::follow::between;
 use super::remesh::{Nodes, Remesh};
 use super::seams::Merged;
@@ -67,18 +66,10 @@ pub(super) fn untangle(sheet: &mut Sheet, solid: &Solid, segments: &Segments, wa
     }
 }
 
-/// The share of the curved pieces that has left the middle of its wall, told from some of the faces. `exact`: the middles that nodes were put
-/// on instead of those between facets; what has one is where it should be. O(log n).
-pub(super) fn astray(
-    sheet: &Sheet,
-    solid: &Solid,
-    segments: &Segments,
-    walls: &Walls,
-    exact: Option<&Exact>,
-) -> f64 {
-    let is_exact = |source: Source| exact.is_some_and(|exact| exact.of(source).is_some());
+/// The share of the curved pieces that has left the middle of its wall, told from some of the faces. O(log n).
+pub(super) fn astray(sheet: &Sheet, solid: &Solid, segments: &Segments, walls: &Walls) -> f64 {
     let is_wall = |f: &u32| match sheet.sources[*f as usize] {
-        own @ Source::Facet(source) => walls.is_wall[segments.of(source) as usize] && !is_exact(own),
+        Source::Facet(source) => walls.is_wall[segments.of(source) as usize],
         Source::Plane(_) => false,
     };
     let every = sheet.faces.len() / LOOKED_AT + 1;
