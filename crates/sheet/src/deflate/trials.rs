@@ -91,7 +91,7 @@ impl Trials<'_> {
             let is_true = |made: &Made| made.faults() == 0 && made.astray < best.astray.max(ASTRAY);
             let read_off = self.read_off().filter(is_true);
             best = match read_off {
-                Some(made) => made,
+                Some(made) => self.rounded(made),
                 None if best.crossing.is_empty() => best,
                 None => self.mended(assembled, best),
             };
@@ -190,6 +190,20 @@ impl Trials<'_> {
             split_to(&mut sheet, self.solid, length);
         }
         Some(self.made(sheet))
+    }
+
+    /// A sheet of flat facets that was meshed to an edge length, with its nodes on the exact middles of round walls, unless it crosses
+    /// itself then.
+    fn rounded(&self, made: Made) -> Made {
+        if self.options.edge_length.is_none() {
+            return made;
+        }
+        let mut sheet = made.sheet.clone();
+        let remesh = Remesh { solid: self.solid, held: &[] };
+        let nodes = remesh.nodes(&sheet);
+        self.exact.settle(&mut sheet, &nodes);
+        let rounded = self.made(sheet);
+        if rounded.faults() == 0 { rounded } else { made }
     }
 
     fn made(&self, sheet: Sheet) -> Made {

@@ -1,5 +1,8 @@
 //! Smooth shells whose two sides are finely meshed, each in its own way.
 
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use crate::deflate::solid_models::revolved;
 use mesh_kernel::TriMesh;
 use mesh_kernel::glam::DVec3;
 use sheet::deflate::{DeflateOptions, Nobody, deflate};
@@ -249,4 +252,23 @@ fn a_border_stays_on_its_end_where_only_one_side_has_another_row() {
         let astray = |v: &f64| *v > 1.0 - 0.9 * before * cell && (v - 1.0).abs() > 0.05 * cell;
         assert_eq!(places.filter(astray).count(), 0, "{before}");
     }
+}
+
+/// A dome in so few facets that it could be a sheet of flat ones: with an edge length its nodes are on the sphere all the same.
+#[test]
+fn a_coarse_dome_meshed_anew_is_round() {
+    let arc = |radius: f64| {
+        (0..=4).map(move |k| {
+            let angle = FRAC_PI_2 * f64::from(k) / 4.0;
+            [radius * angle.cos(), radius * angle.sin()]
+        })
+    };
+    let inside: Vec<[f64; 2]> = arc(39.0).collect();
+    let profile: Vec<[f64; 2]> = arc(41.0).chain(inside.into_iter().rev()).collect();
+    let options = DeflateOptions { edge_length: Some(3.0), ..DeflateOptions::default() };
+    let thin = deflate(&revolved(&profile, 14, false), &options, &Nobody).unwrap();
+    assert_eq!(thin.report.self_intersections, 0);
+    let area = thin.report.area / (2.0 * PI * 40.0 * 40.0);
+    assert!((area - 1.0).abs() < 5e-3, "{area} of the half of a sphere");
+    assert!(thin.thickness.iter().all(|t| (t - 2.0).abs() < 1e-6));
 }
