@@ -95,6 +95,9 @@ pub(super) fn assemble(
         borders.extend(border(solid, segments, gone, *g).map(|e| (e, k)));
     }
     let mut seams = Seams::new(moved.clone(), merged, &borders, first_curved, soft, near);
+    let plane_of =
+        |k: u32| plan.planes.get(k as usize).filter(|piece| !piece.is_step).map(|piece| piece.plane);
+    seams.put_on_planes(plane_of, near);
     let length_of = |k: u32| {
         let own = plan.planes.get(k as usize).and_then(|piece| piece.edge_length);
         own.into_iter().chain(options.edge_length).fold(f64::INFINITY, f64::min)

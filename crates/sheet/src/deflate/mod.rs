@@ -288,8 +288,8 @@ fn steps_of(mesh: &TriMesh, order: &[u32], sheet: &Sheet, segments: &Segments, w
     mesh.groups.iter().filter(|patch| patch.faces.clone().any(is_step)).count()
 }
 
-/// A face no wider than this many thicknesses is the end of a wall, or a blend.
-const END_WIDTH: f64 = 1.5;
+/// A face no wider than this many thicknesses is the end of a wall, be it round, or a blend.
+const END_WIDTH: f64 = 2.2;
 
 /// Groups that are no walls, did not go and are wider than some thicknesses, the largest first.
 fn unpaired(

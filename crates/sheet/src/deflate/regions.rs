@@ -29,6 +29,8 @@ const CHORD_FOLD: f64 = 20.0 / 180.0 * std::f64::consts::PI;
 const MOST_BETWEEN: usize = 64;
 /// Below this fold, in radians, edges of a plane face say nothing: the surface may just be finely meshed.
 const SLIGHT_FOLD: f64 = 1.0 / 180.0 * std::f64::consts::PI;
+/// Unless the face is so many times wider than all behind them.
+const MUCH_WIDER: f64 = 20.0;
 
 const NONE: u32 = u32::MAX;
 
@@ -236,7 +238,9 @@ impl Regions {
             return true;
         }
         let fold = beside.iter().map(|b| b.length * b.fold).sum::<f64>() / smooth;
-        fold > SLIGHT_FOLD && (whole_star || !self.goes_on(region, sizes))
+        let widest = beside.iter().map(|b| sizes[b.other as usize].width).fold(0.0, f64::max);
+        let tells = fold > SLIGHT_FOLD || sizes[region as usize].width > MUCH_WIDER * widest;
+        tells && (whole_star || !self.goes_on(region, sizes))
     }
 
     /// Whether behind most of its smooth edges there are regions about as wide.

@@ -17,7 +17,7 @@ use super::twins::Twins;
 use super::walls::Walls;
 
 /// Two planes meet in a line if the sine of the angle between them is more than this.
-const MEETING: f64 = 0.03;
+pub(super) const MEETING: f64 = 0.03;
 /// The same for the plane of an end face.
 const MEETING_END: f64 = 0.3;
 /// The same for facets: a chamfer slants by more, a hole that is drilled askew by less.
@@ -268,7 +268,7 @@ impl Replacement<'_> {
     fn place(&self, v: u32, along: DVec3, way: Way) -> DVec3 {
         let p = self.solid.mesh.positions[v as usize];
         let mut wanted = self.wanted(v);
-        let planes = independent(&wanted);
+        let planes = held_by(&wanted);
         if let Some(middle) = self.between_twins(v, &wanted, &planes) {
             return middle;
         }
@@ -471,18 +471,26 @@ impl Replacement<'_> {
     }
 }
 
-/// The planes that a node is put on: at most three that meet in one point, walls before ends.
-fn independent(wanted: &Wanted) -> Vec<Plane> {
-    let mut chosen: Vec<Plane> = Vec::with_capacity(3);
-    let mut basis: Vec<DVec3> = Vec::with_capacity(3);
+/// The planes that a node is put on, walls before ends.
+fn held_by(wanted: &Wanted) -> Vec<Plane> {
     let walls = wanted.walls.iter().map(|p| (p, MEETING));
     // An end face that runs into a wall at a small angle would pull the node far along it.
-    let ends = wanted.ends.iter().map(|p| (p, MEETING_END));
-    for (plane, least) in walls.chain(ends) {
-        let rest = basis.iter().fold(plane.normal, |n, b| n - *b * b.dot(n));
+    let is_beside = |plane: &Plane| {
         let facets = wanted.facets.iter().map(|f| f.0.normal.cross(plane.normal).length());
-        let beside = least == MEETING_END && facets.fold(1.0, f64::min) < MEETING_END;
-        if rest.length() > least && !beside && chosen.len() < 3 {
+        facets.fold(1.0, f64::min) < MEETING_END
+    };
+    let ends = wanted.ends.iter().filter(|p| !is_beside(p)).map(|p| (p, MEETING_END));
+    independent(walls.chain(ends))
+}
+
+/// At most three planes that meet in one point, those before others that come first. With each comes the sine of the angle at which it must
+/// meet those before.
+pub(super) fn independent<'a>(planes: impl Iterator<Item = (&'a Plane, f64)>) -> Vec<Plane> {
+    let mut chosen: Vec<Plane> = Vec::with_capacity(3);
+    let mut basis: Vec<DVec3> = Vec::with_capacity(3);
+    for (plane, least) in planes {
+        let rest = basis.iter().fold(plane.normal, |n, b| n - *b * b.dot(n));
+        if rest.length() > least && chosen.len() < 3 {
             basis.push(rest.normalize());
             chosen.push(*plane);
         }

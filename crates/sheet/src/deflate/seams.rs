@@ -4,11 +4,14 @@
 //! Nodes in one place are merged, edges are cut at nodes that lie on them and where they cross, so that afterwards edges
 //! are the same or have at most a node in common.
 
+use std::cmp::{Ordering, Reverse};
 use std::collections::BTreeMap;
 
 use glam::DVec3;
 
 use super::nearness::{Nearness, crossing, near_pairs};
+use super::plane::Plane;
+use super::replace::{MEETING, independent, on_planes};
 
 /// Union–find in which the smaller number stands for both.
 #[derive(Clone, Debug)]
@@ -119,6 +122,21 @@ impl Seams {
         seams
     }
 
+    /// Puts nodes back on the planes of the pieces that they border, if they were merged with what lies beside these: a node off its plane
+    /// draws all of a piece along. `plane_of`: by piece. O(n log n).
+    pub(super) fn put_on_planes(&mut self, plane_of: impl Fn(u32) -> Option<Plane>, near: Nearness) {
+        for run in self.planes_at().chunk_by(|a, b| a.0 == b.0) {
+            let planes: Vec<Plane> = run.iter().filter_map(|(_, piece)| plane_of(*piece)).collect();
+            let p = &mut self.positions[run[0].0 as usize];
+            if planes.iter().any(|plane| plane.height(*p).abs() > near.rounding) {
+                let moved = on_planes(*p, &independent(planes.iter().map(|plane| (plane, MEETING))));
+                if moved.distance(*p) < near.chords {
+                    *p = moved;
+                }
+            }
+        }
+    }
+
     /// Closes parts between nodes that are only as exact as chords and so near to each other that the border would zigzag.
     fn merge_short(&mut self, chords: f64) {
         let length = |[a, b]: &[u32; 2]| self.positions[*a as usize].distance(self.positions[*b as usize]);
@@ -134,16 +152,18 @@ impl Seams {
         let mut short: Vec<(f64, [u32; 2])> =
             parts.filter(is_soft).map(|p| (length(&p), p)).filter(|p| p.0 < least(&p.1)).collect();
         short.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let planes = self.plane_counts();
         let mut used = vec![false; self.positions.len()];
         for (_, [a, b]) in short {
             if !(used[a as usize] || used[b as usize]) {
                 (used[a as usize], used[b as usize]) = (true, true);
                 let stays = a.min(b) as usize;
                 let (p, q) = (self.positions[a as usize], self.positions[b as usize]);
-                self.positions[stays] = match is_for_good(&[a, b]) {
-                    [true, false] => p,
-                    [false, true] => q,
-                    _ => p.midpoint(q),
+                let firmness = [a, b].map(|v| (at_node[v as usize] != 2, planes[v as usize]));
+                self.positions[stays] = match firmness[0].cmp(&firmness[1]) {
+                    Ordering::Greater => p,
+                    Ordering::Less => q,
+                    Ordering::Equal => p.midpoint(q),
                 };
                 self.merged.join(a, b);
             }
@@ -291,19 +311,41 @@ impl Seams {
             .filter(|(a, (_, b))| **a < *b && nearest.get(b).is_some_and(|n| n.1 == **a))
             .map(|(a, (_, b))| (*a, *b))
             .collect();
+        let planes = self.plane_counts();
         for &(a, b) in &mutual {
-            // What is exact stays where it is.
+            // What is exact stays where it is, and of the rest what lies in more planes.
             let (p, q) = (self.positions[a as usize], self.positions[b as usize]);
-            self.positions[a as usize] = match [a, b].map(|v| self.soft[v as usize]) {
-                [false, _] => p,
-                [true, false] => q,
-                [true, true] => (p + q) / 2.0,
+            let looseness = [a, b].map(|v| (self.soft[v as usize], Reverse(planes[v as usize])));
+            self.positions[a as usize] = match looseness[0].cmp(&looseness[1]) {
+                Ordering::Less => p,
+                Ordering::Greater => q,
+                Ordering::Equal if !self.soft[a as usize] => p,
+                Ordering::Equal => (p + q) / 2.0,
             };
             self.soft[a as usize] &= self.soft[b as usize];
             self.merged.join(a, b);
         }
         self.update();
         !mutual.is_empty()
+    }
+
+    /// The plane pieces that nodes border: node and piece, ascending.
+    fn planes_at(&self) -> Vec<(u32, u32)> {
+        let mut at: Vec<(u32, u32)> = Vec::new();
+        for (path, pieces) in self.paths.iter().zip(&self.pieces) {
+            let planes = pieces.iter().filter(|piece| **piece < self.first_curved);
+            at.extend(planes.flat_map(|piece| path.iter().map(|v| (*v, *piece))));
+        }
+        at.sort_unstable();
+        at.dedup();
+        at
+    }
+
+    /// In how many plane pieces' borders each node is.
+    fn plane_counts(&self) -> Vec<u32> {
+        let mut counts = vec![0; self.positions.len()];
+        self.planes_at().iter().for_each(|(v, _)| counts[*v as usize] += 1);
+        counts
     }
 
     fn nodes(&self) -> Vec<u32> {
@@ -490,5 +532,27 @@ mod tests {
         assert_eq!(seams.path(2, 3), seams.path(0, 1));
         assert_eq!(seams.path(3, 2), seams.path(1, 0));
         assert_eq!(seams.path(0, 2), [0]);
+    }
+
+    /// The side of a wall ends on a boss in chords: drawn to a node of the boss, its own would draw the whole of it aside.
+    #[test]
+    fn nodes_of_plane_pieces_stay_on_their_planes() {
+        let positions =
+            [[0.0, 0.0], [40.0, 0.0], [40.1, 0.2], [40.1, 20.0]].map(|[x, z]| DVec3::new(x, 0.0, z));
+        let borders = [([0, 1], 0), ([2, 3], 1)];
+        let near = Nearness { rounding: 1e-6, chords: 0.5 };
+        let end = |first_curved: u32| {
+            let merged = Merged::new(positions.len());
+            let soft = [false, true, true, false];
+            let mut seams = Seams::new(positions.to_vec(), merged, &borders, first_curved, &soft, near);
+            let planes = [(DVec3::Z, 0.0), (DVec3::X, 40.1)].map(|(normal, offset)| Plane { normal, offset });
+            seams.put_on_planes(|piece| planes[..first_curved as usize].get(piece as usize).copied(), near);
+            let [a, b] = [seams.path(0, 1)[1], seams.path(2, 3)[0]];
+            assert_eq!(a, b);
+            seams.positions[a as usize]
+        };
+        assert!(end(1).abs_diff_eq(DVec3::new(40.0, 0.0, 0.0), 1e-9));
+        // Two planes meet in a line.
+        assert!(end(2).abs_diff_eq(DVec3::new(40.1, 0.0, 0.0), 1e-9));
     }
 }

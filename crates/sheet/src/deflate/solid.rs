@@ -11,8 +11,8 @@ use crate::cleaning::weld;
 const FLAT: f64 = 1e-9;
 /// Sharply turned away from all about them, faces that are lower than this share of the solid's size, and smaller together than a
 /// square on the other, have none either: a tessellation is so rough at the poles of round faces, and no wall so thin.
-const LOW: f64 = 1e-4;
-pub(super) const SPECK: f64 = 2e-3;
+const LOW: f64 = 3e-4;
+pub(super) const SPECK: f64 = 1e-3;
 /// Edges that fold by more than this, in radians, are sharp: no tessellation of a smooth face is so coarse.
 pub(super) const SHARP: f64 = 40.0 / 180.0 * std::f64::consts::PI;
 
@@ -246,4 +246,20 @@ fn turned_away(
 /// Of a triangle, in mm.
 pub(super) fn longest_side([a, b, c]: &[DVec3; 3]) -> f64 {
     a.distance(*b).max(b.distance(*c)).max(c.distance(*a))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Three nodes of an arc across a fillet, as a face of their own: it stands up from the faces on both sides of it, which make one skin.
+    #[test]
+    fn needles_that_stand_up_face_as_those_beside_them() {
+        let nodes = [[0.0, 0.0, 0.0], [4e-3, 0.0, 2e-4], [8e-3, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0]];
+        let faces = vec![[0, 1, 3], [1, 2, 3], [0, 4, 2], [0, 2, 1]];
+        let mesh = TriMesh::new(nodes.map(DVec3::from).to_vec(), faces);
+        let (normals, areas) = normals_and_areas(&mesh, &Adjacency::new(&mesh), 1.0);
+        assert!(normals.iter().all(|n| n.z > 0.99), "{normals:?}");
+        assert!(areas[3] > 0.0);
+    }
 }

@@ -26,24 +26,28 @@ impl Topology {
         };
         let nodes = mesh.positions.len();
         let (free, junction) = (of_faces(|n| n == 1), of_faces(|n| n > 2));
-        let (free_nodes, free_parts) = parts(nodes, &free);
-        let (_, components) = parts(nodes, adjacency.edges());
+        let (free_nodes, free_parts) = parts(nodes, free.iter().copied());
         Self {
             joints: curves(nodes, &junction),
             free_loops: free.len() + free_parts - free_nodes,
-            components,
+            components: components(nodes, &mesh.faces),
         }
     }
 }
 
+/// In how many parts faces hang together, if only by a node. O(n).
+pub(super) fn components(nodes: usize, faces: &[[u32; 3]]) -> usize {
+    parts(nodes, faces.iter().flat_map(|[a, b, c]| [[*a, *b], [*b, *c]])).1
+}
+
 /// How many nodes some edges have, and in how many parts they hang together.
-fn parts(nodes: usize, edges: &[[u32; 2]]) -> (usize, usize) {
+fn parts(nodes: usize, edges: impl IntoIterator<Item = [u32; 2]>) -> (usize, usize) {
     let mut merged = Merged::new(nodes);
     let mut used = vec![false; nodes];
     for [a, b] in edges {
-        merged.join(*a, *b);
-        used[*a as usize] = true;
-        used[*b as usize] = true;
+        merged.join(a, b);
+        used[a as usize] = true;
+        used[b as usize] = true;
     }
     let count = used.iter().filter(|u| **u).count();
     let roots = (0..nodes as u32).filter(|v| used[*v as usize] && merged.find(*v) == *v).count();

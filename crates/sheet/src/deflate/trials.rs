@@ -1,7 +1,7 @@
 //! Several ways to put a sheet together, and which one is kept.
 //!
 //! Which side of a wall knows more, and whether what was to be removed is better gone, is only seen when the sheet is there: whether it
-//! crosses itself, has lost edges, or has left the middle of its walls.
+//! crosses itself, has lost edges, is in parts, or has left the middle of its walls.
 
 use std::cell::OnceCell;
 
@@ -16,7 +16,7 @@ use super::remesh::Remesh;
 use super::replace::{Replacement, Way};
 use super::segments::Segments;
 use super::solid::Solid;
-use super::topology::Topology;
+use super::topology::{Topology, components};
 use super::twins::Twins;
 use super::untangle::{astray, crossing_faces, untangle};
 use super::walls::Walls;
@@ -49,6 +49,8 @@ pub(super) struct Made {
     pub(super) sheet: Sheet,
     /// Pairs of faces that cross.
     pub(super) crossing: Vec<(u32, u32)>,
+    /// In how many more parts than the solid it is.
+    torn: usize,
     /// The share of its curved pieces that is not in the middle of the wall.
     astray: f64,
 }
@@ -74,8 +76,8 @@ impl Made {
 }
 
 impl Trials<'_> {
-    /// Makes the sheet of the kept groups, without those that are gone, with nodes where middles meet. What comes out crossed or astray is
-    /// tried facet by facet, with nodes moved upright, with the other sides of walls, and with what was to be removed.
+    /// Makes the sheet of the kept groups, without those that are gone, with nodes where middles meet. What comes out crossed, in parts or astray
+    /// is tried facet by facet, with nodes moved upright, with the other sides of walls, and with what was to be removed.
     ///
     /// # Errors
     /// [`DeflateError::Cancelled`] between two trials.
@@ -87,7 +89,7 @@ impl Trials<'_> {
         meeting: Moved,
     ) -> Result<Chosen, DeflateError> {
         let (assembled, mut best) = self.as_it_comes(gone, kept, &meeting);
-        if best.faults() > 0 || best.astray > FOLDED {
+        if best.faults() > 0 || best.astray > FOLDED || best.torn > 0 {
             let is_true = |made: &Made| made.faults() == 0 && made.astray < best.astray.max(ASTRAY);
             let read_off = self.read_off().filter(is_true);
             best = match read_off {
@@ -105,7 +107,7 @@ impl Trials<'_> {
         let mut with_features = false;
         for (k, (gone, kept, way)) in without.iter().chain(with).enumerate() {
             let is_with = k >= without.len();
-            if best.faults() == 0 && (best.astray < ASTRAY || is_with) {
+            if best.faults() == 0 && best.torn == 0 && (best.astray < ASTRAY || is_with) {
                 break;
             }
             // What has no faults is no truer upright.
@@ -121,8 +123,9 @@ impl Trials<'_> {
                     self.stitched(gone, kept, upright.get_or_init(|| self.replacement.moved(*way)))
                 }
             };
-            let fewer = trial.faults() < best.faults();
-            let truer = trial.faults() == best.faults() && trial.astray < TRUER * best.astray;
+            let faults = |made: &Made| (made.faults(), made.torn);
+            let fewer = faults(&trial) < faults(&best);
+            let truer = faults(&trial) == faults(&best) && trial.astray < TRUER * best.astray;
             // Where it does not meet the rest, it is in pieces or has holes, or joints beside each other. With features it has more anyway.
             let meets = (is_with && !with_features) || trial.seams() <= best.seams();
             if (fewer || truer) && meets {
@@ -210,6 +213,8 @@ impl Trials<'_> {
         let Self { solid, segments, walls, .. } = *self;
         let crossing = crossing_faces(&sheet, |_| true);
         let astray = astray(&sheet, solid, segments, walls);
-        Made { sheet, crossing, astray }
+        let whole = components(solid.mesh.positions.len(), &solid.mesh.faces);
+        let torn = components(sheet.positions.len(), &sheet.faces).saturating_sub(whole);
+        Made { sheet, crossing, torn, astray }
     }
 }

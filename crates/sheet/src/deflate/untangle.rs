@@ -43,7 +43,8 @@ pub(super) fn untangle(sheet: &mut Sheet, solid: &Solid, segments: &Segments, wa
         let mut drawn: Vec<BTreeSet<u32>> = Vec::new();
         for cluster in clusters(sheet, &nodes, &crossing, rings) {
             let faces: BTreeSet<u32> = cluster.iter().flat_map(|v| nodes.faces(*v)).collect();
-            let look = |sheet: &Sheet| Extent::new(sheet, faces.iter().copied(), solid, segments, walls);
+            let look =
+                |sheet: &Sheet| Extent::new(sheet, faces.iter().copied(), solid, segments, walls, false);
             let was = look(sheet);
             draw(sheet, &nodes, &cluster);
             let is = look(sheet);
@@ -74,7 +75,7 @@ pub(super) fn astray(sheet: &Sheet, solid: &Solid, segments: &Segments, walls: &
     };
     let every = sheet.faces.len() / LOOKED_AT + 1;
     let faces = (0..sheet.faces.len() as u32).step_by(every).filter(is_wall);
-    Extent::new(sheet, faces, solid, segments, walls).astray
+    Extent::new(sheet, faces, solid, segments, walls, true).astray
 }
 
 /// Pairs of faces that cross, of those that are looked at.
@@ -160,21 +161,31 @@ struct Extent {
 }
 
 impl Extent {
+    /// `with_rims`: in a round rim, where walls go on halfway between faces that are no walls, the middle is there.
     fn new(
         sheet: &Sheet,
         faces: impl IntoIterator<Item = u32>,
         solid: &Solid,
         segments: &Segments,
         walls: &Walls,
+        with_rims: bool,
     ) -> Self {
         let (mut area, mut astray) = (0.0, 0.0);
         for f in faces {
             let [a, b, c] = sheet.faces[f as usize].map(|v| sheet.positions[v as usize]);
             let across = (b - a).cross(c - a);
             let own = across.length() / 2.0;
-            let seen = between(solid, segments, walls, (a + b + c) / 3.0, across.normalize_or_zero());
+            let (p, normal) = ((a + b + c) / 3.0, across.normalize_or_zero());
+            let seen = between(solid, segments, walls, p, normal);
+            let is_halfway = || {
+                let far = |normal: DVec3| Some(walls.first(solid, p, normal)?.distance);
+                let off = far(normal).zip(far(-normal)).map(|(up, down)| (up - down).abs() / 2.0);
+                off.is_some_and(|off| off < OFF * walls.max_thickness)
+            };
             area += own;
-            if seen.is_none_or(|seen| seen.off.length() > OFF * seen.thickness) {
+            if seen
+                .map_or_else(|| !(with_rims && is_halfway()), |seen| seen.off.length() > OFF * seen.thickness)
+            {
                 astray += own;
             }
         }

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_4;
 
-use crate::deflate::solid_models::{block, turned, united};
-use crate::deflate::support::{has_topology, near};
+use crate::deflate::solid_models::{block, prism, turned, united};
+use crate::deflate::support::{deflated, has_topology, near};
 use mesh_kernel::TriMesh;
 use mesh_kernel::glam::DVec3;
 use mesh_kernel::query::Adjacency;
@@ -286,4 +286,27 @@ fn fillets_of_two_radii_leave_no_hole_where_they_meet() {
             assert!((r.area / wanted - 1.0).abs() < 1e-6, "{what}: {} mm² of {wanted}", r.area);
         }
     }
+}
+
+/// A rib with root fillets in so many chords that these fold by less than a degree: its sides and the floor are planes all the same.
+#[test]
+fn finely_meshed_fillets_leave_planes_what_they_are() {
+    let fillet = |x: f64, turned: f64| {
+        (0..=70).map(move |k| {
+            let angle = std::f64::consts::FRAC_PI_2 * f64::from(k) / 70.0;
+            [x + turned * 0.8 * (1.0 - angle.sin()), 2.0 + 0.8 * (1.0 - angle.cos())]
+        })
+    };
+    let right: Vec<[f64; 2]> = fillet(0.75, 1.0).collect();
+    let left: Vec<[f64; 2]> = fillet(-0.75, -1.0).collect();
+    let profile: Vec<[f64; 2]> = [[-30.0, 0.0], [30.0, 0.0], [30.0, 2.0]]
+        .into_iter()
+        .chain(right)
+        .chain([[0.75, 14.0], [-0.75, 14.0]])
+        .chain(left.into_iter().rev())
+        .chain([[-30.0, 2.0]])
+        .collect();
+    let thin = deflated(&prism(&profile, 50.0, 1));
+    has_topology(&thin, [3, 1, 2, 1]);
+    near(thin.report.area, 50.0 * (60.0 + 13.0), 1e-6);
 }

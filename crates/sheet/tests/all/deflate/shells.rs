@@ -272,3 +272,27 @@ fn a_coarse_dome_meshed_anew_is_round() {
     assert!((area - 1.0).abs() < 5e-3, "{area} of the half of a sphere");
     assert!(thin.thickness.iter().all(|t| (t - 2.0).abs() < 1e-6));
 }
+
+/// A bowl whose lip is round, in so many chords that all of its skin is smooth: its middle goes on to the end of the material.
+#[test]
+fn a_bowl_goes_on_to_the_end_of_its_round_lip() {
+    let arc = |centre: f64, radius: f64, from: f64, to: f64, chords: i32| {
+        (0..=chords).map(move |k| {
+            let angle = from + (to - from) * f64::from(k) / f64::from(chords);
+            [centre + radius * angle.cos(), radius * angle.sin()]
+        })
+    };
+    for (chords, steps, off) in [(8, 32, 0.2), (40, 160, 0.02)] {
+        let round = (chords / 4).max(4);
+        let lip = arc(40.0, 1.0, 0.0, PI, round).take(round as usize).skip(1);
+        let profile: Vec<[f64; 2]> = arc(0.0, 41.0, -FRAC_PI_2, 0.0, chords)
+            .chain(lip)
+            .chain(arc(0.0, 39.0, 0.0, -FRAC_PI_2, chords))
+            .collect();
+        let thin = deflate(&revolved(&profile, steps, false), &DeflateOptions::default(), &Nobody).unwrap();
+        assert_eq!((thin.report.free_loops, thin.report.self_intersections), (1, 0));
+        assert!(thin.report.unpaired.is_empty());
+        let top = thin.sheet.positions.iter().map(|p| p.z).fold(0.0, f64::max);
+        assert!((top - 1.0).abs() < off, "{top}");
+    }
+}
