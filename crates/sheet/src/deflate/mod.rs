@@ -213,6 +213,7 @@ pub fn deflate(
     let others = kept_groups(&solid, &segments, &walls, &blends, &flush, &middles.of_group, true);
     let trials = Trials {
         solid: &solid,
+        parts: solid.parts(),
         segments: &segments,
         walls: &walls,
         middles: &middles,
@@ -288,8 +289,10 @@ fn steps_of(mesh: &TriMesh, order: &[u32], sheet: &Sheet, segments: &Segments, w
     mesh.groups.iter().filter(|patch| patch.faces.clone().any(is_step)).count()
 }
 
-/// A face no wider than this many thicknesses is the end of a wall, be it round, or a blend.
-const END_WIDTH: f64 = 2.2;
+/// A face no wider than this many thicknesses is the end of a wall, or a blend.
+const END_WIDTH: f64 = 1.5;
+/// So many times this if it is round, and has the first facets of the wall as well.
+const ROUND_END: f64 = 1.5;
 
 /// Groups that are no walls, did not go and are wider than some thicknesses, the largest first.
 fn unpaired(
@@ -311,6 +314,7 @@ fn unpaired(
             .filter(|h| segments.of(solid.across(*h)) != segments.of(h / 3))
             .map(|h| solid.length(h))
             .sum();
+        let wider = if group.plane.is_some() { wider } else { wider * ROUND_END };
         if 2.0 * group.area < wider * walls.max_thickness * outline {
             continue;
         }

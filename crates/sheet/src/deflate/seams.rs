@@ -33,9 +33,19 @@ impl Merged {
     }
 
     pub(super) fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.find(a), self.find(b));
+        let (a, b) = (self.halved(a), self.halved(b));
         let (low, high) = (a.min(b), a.max(b));
         self.parent[high as usize] = low;
+    }
+
+    /// Who stands for `x`; every other step of the way there is left out from now on.
+    fn halved(&mut self, mut x: u32) -> u32 {
+        while self.parent[x as usize] != x {
+            let next = self.parent[self.parent[x as usize] as usize];
+            self.parent[x as usize] = next;
+            x = next;
+        }
+        x
     }
 
     fn push(&mut self) -> u32 {
@@ -44,7 +54,7 @@ impl Merged {
     }
 
     /// Makes every path one step long.
-    fn flatten(&mut self) {
+    pub(super) fn flatten(&mut self) {
         for x in 0..self.parent.len() as u32 {
             self.parent[x as usize] = self.find(x);
         }
@@ -125,12 +135,16 @@ impl Seams {
     /// Puts nodes back on the planes of the pieces that they border, if they were merged with what lies beside these: a node off its plane
     /// draws all of a piece along. `plane_of`: by piece. O(n log n).
     pub(super) fn put_on_planes(&mut self, plane_of: impl Fn(u32) -> Option<Plane>, near: Nearness) {
+        let shortest = self.shortest_edges(&self.parts());
         for run in self.planes_at().chunk_by(|a, b| a.0 == b.0) {
+            let most = near.chords.min(MOVED * shortest[run[0].0 as usize]);
             let planes: Vec<Plane> = run.iter().filter_map(|(_, piece)| plane_of(*piece)).collect();
             let p = &mut self.positions[run[0].0 as usize];
             if planes.iter().any(|plane| plane.height(*p).abs() > near.rounding) {
                 let moved = on_planes(*p, &independent(planes.iter().map(|plane| (plane, MEETING))));
-                if moved.distance(*p) < near.chords {
+                // Planes that hardly lean to each other do not meet here.
+                let is_on_all = planes.iter().all(|plane| plane.height(moved).abs() < near.rounding);
+                if is_on_all && moved.distance(*p) < most {
                     *p = moved;
                 }
             }
@@ -489,6 +503,8 @@ const MOST_ANYWAY: usize = 2000;
 const MERGED_EDGE: f64 = 0.4;
 /// A chord is no farther than this share of its length from its arc, if one of eight closes a circle.
 const SAGITTA: f64 = 0.2;
+/// A node is put back on planes over this share of its shortest edge, or it may pass what is beside it.
+const MOVED: f64 = 0.5;
 /// What is nearer than this share of the distance that chords may have is one, however short its edges: walls are not so thin.
 const SURELY: f64 = 0.25;
 /// Sine of the angle between chords of the same border, at most.

@@ -1,16 +1,20 @@
 //! The solid that is deflated: one closed, oriented skin without crossings.
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 use mesh_kernel::TriMesh;
 use mesh_kernel::query::{Adjacency, Crossings, RayCaster};
 
 use super::DeflateError;
+use super::seams::Merged;
 use crate::cleaning::weld;
 
 /// A face whose height is less than this share of its longest side has no normal of its own.
 const FLAT: f64 = 1e-9;
 /// Sharply turned away from all about them, faces that are lower than this share of the solid's size, and smaller together than a
-/// square on the other, have none either: a tessellation is so rough at the poles of round faces, and no wall so thin.
+/// square on the other, have none either: tessellations are so rough at the poles of round faces and in small fillets. The ends of a thin
+/// wall are as low, but lead on.
 const LOW: f64 = 3e-4;
 pub(super) const SPECK: f64 = 1e-3;
 /// Edges that fold by more than this, in radians, are sharp: no tessellation of a smooth face is so coarse.
@@ -91,6 +95,22 @@ impl Solid {
         self.mesh.faces.len() as u32
     }
 
+    /// In how many parts it is, cavities left out. O(n log n).
+    pub(super) fn parts(&self) -> usize {
+        let mut merged = Merged::new(self.mesh.positions.len());
+        for [a, b, c] in &self.mesh.faces {
+            merged.join(*a, *b);
+            merged.join(*b, *c);
+        }
+        merged.flatten();
+        let mut volumes: BTreeMap<u32, f64> = BTreeMap::new();
+        let about = self.mesh.positions.first().copied().unwrap_or_default();
+        for (f, face) in (0u32..).zip(&self.mesh.faces) {
+            *volumes.entry(merged.find(face[0])).or_default() += six_volumes(&self.mesh, f, about);
+        }
+        volumes.values().filter(|volume| **volume > 0.0).count()
+    }
+
     /// The face across side `h` (three times the face, and the side).
     pub(super) fn across(&self, h: u32) -> u32 {
         // The skin is closed, so there is one.
@@ -156,11 +176,13 @@ fn check_closed(mesh: &TriMesh, adjacency: &Adjacency, sources: &[u32]) -> Resul
 /// Six-fold sums are taken about a node, where digits are not lost.
 fn volume(mesh: &TriMesh) -> f64 {
     let about = mesh.positions.first().copied().unwrap_or_default();
-    let six = |f: u32| {
-        let [a, b, c] = mesh.corners(f).map(|p| p - about);
-        a.cross(b).dot(c)
-    };
-    (0..mesh.faces.len() as u32).map(six).sum::<f64>() / 6.0
+    (0..mesh.faces.len() as u32).map(|f| six_volumes(mesh, f, about)).sum::<f64>() / 6.0
+}
+
+/// Six times the volume between a face and a point, in mm³.
+fn six_volumes(mesh: &TriMesh, f: u32, about: DVec3) -> f64 {
+    let [a, b, c] = mesh.corners(f).map(|p| p - about);
+    a.cross(b).dot(c)
 }
 
 fn normals_and_areas(mesh: &TriMesh, adjacency: &Adjacency, size: f64) -> (Vec<DVec3>, Vec<f64>) {

@@ -35,7 +35,7 @@ impl Topology {
     }
 }
 
-/// In how many parts faces hang together, if only by a node. O(n).
+/// In how many parts faces hang together, if only by a node. O(n log n).
 pub(super) fn components(nodes: usize, faces: &[[u32; 3]]) -> usize {
     parts(nodes, faces.iter().flat_map(|[a, b, c]| [[*a, *b], [*b, *c]])).1
 }
@@ -49,6 +49,7 @@ fn parts(nodes: usize, edges: impl IntoIterator<Item = [u32; 2]>) -> (usize, usi
         used[a as usize] = true;
         used[b as usize] = true;
     }
+    merged.flatten();
     let count = used.iter().filter(|u| **u).count();
     let roots = (0..nodes as u32).filter(|v| used[*v as usize] && merged.find(*v) == *v).count();
     (count, roots)

@@ -20,7 +20,7 @@ use super::topology::{Topology, components};
 use super::twins::Twins;
 use super::untangle::{astray, crossing_faces, untangle};
 use super::walls::Walls;
-use super::{DeflateError, DeflateOptions, Watcher};
+use super::{DeflateError, DeflateOptions, Steps, Watcher};
 
 /// If more than this share of a sheet's curved pieces is astray, it may be made of flat facets.
 const FOLDED: f64 = 5e-3;
@@ -34,6 +34,8 @@ const HOLDINGS: usize = 5;
 /// What all trials are made of.
 pub(super) struct Trials<'a> {
     pub(super) solid: &'a Solid,
+    /// In how many parts the solid is.
+    pub(super) parts: usize,
     pub(super) segments: &'a Segments,
     pub(super) walls: &'a Walls,
     pub(super) middles: &'a Middles,
@@ -107,7 +109,7 @@ impl Trials<'_> {
         let mut with_features = false;
         for (k, (gone, kept, way)) in without.iter().chain(with).enumerate() {
             let is_with = k >= without.len();
-            if best.faults() == 0 && best.torn == 0 && (best.astray < ASTRAY || is_with) {
+            if best.faults() == 0 && (is_with || best.torn == 0 && best.astray < ASTRAY) {
                 break;
             }
             // What has no faults is no truer upright.
@@ -123,9 +125,10 @@ impl Trials<'_> {
                     self.stitched(gone, kept, upright.get_or_init(|| self.replacement.moved(*way)))
                 }
             };
-            let faults = |made: &Made| (made.faults(), made.torn);
-            let fewer = faults(&trial) < faults(&best);
-            let truer = faults(&trial) == faults(&best) && trial.astray < TRUER * best.astray;
+            let whole = trial.torn < best.torn && trial.astray < best.astray.max(ASTRAY);
+            let is_as_good = trial.faults() == best.faults() && trial.torn <= best.torn;
+            let fewer = trial.faults() < best.faults() || whole && is_as_good;
+            let truer = is_as_good && trial.astray < TRUER * best.astray;
             // Where it does not meet the rest, it is in pieces or has holes, or joints beside each other. With features it has more anyway.
             let meets = (is_with && !with_features) || trial.seams() <= best.seams();
             if (fewer || truer) && meets {
@@ -213,8 +216,8 @@ impl Trials<'_> {
         let Self { solid, segments, walls, .. } = *self;
         let crossing = crossing_faces(&sheet, |_| true);
         let astray = astray(&sheet, solid, segments, walls);
-        let whole = components(solid.mesh.positions.len(), &solid.mesh.faces);
-        let torn = components(sheet.positions.len(), &sheet.faces).saturating_sub(whole);
+        let parts = components(sheet.positions.len(), &sheet.faces);
+        let torn = if self.options.steps == Steps::Apart { 0 } else { parts.saturating_sub(self.parts) };
         Made { sheet, crossing, torn, astray }
     }
 }

@@ -161,7 +161,7 @@ struct Extent {
 }
 
 impl Extent {
-    /// `with_rims`: in a round rim, where walls go on halfway between faces that are no walls, the middle is there.
+    /// `with_rims`: where no wall is seen, or one that leans, as in a round rim, what is halfway between the faces that are met is in the middle.
     fn new(
         sheet: &Sheet,
         faces: impl IntoIterator<Item = u32>,
@@ -178,9 +178,9 @@ impl Extent {
             let (p, normal) = ((a + b + c) / 3.0, across.normalize_or_zero());
             let seen = between(solid, segments, walls, p, normal);
             let is_halfway = || {
-                let far = |normal: DVec3| Some(walls.first(solid, p, normal)?.distance);
-                let off = far(normal).zip(far(-normal)).map(|(up, down)| (up - down).abs() / 2.0);
-                off.is_some_and(|off| off < OFF * walls.max_thickness)
+                let seen = [normal, -normal].map(|way| walls.first(solid, p, way));
+                let [Some(up), Some(down)] = seen else { return false };
+                (up.distance - down.distance).abs() / 2.0 < OFF * (up.distance + down.distance)
             };
             area += own;
             if seen

@@ -282,7 +282,7 @@ fn a_bowl_goes_on_to_the_end_of_its_round_lip() {
             [centre + radius * angle.cos(), radius * angle.sin()]
         })
     };
-    for (chords, steps, off) in [(8, 32, 0.2), (40, 160, 0.02)] {
+    for (chords, steps, off) in [(8, 32, 0.2), (32, 128, 0.02), (40, 160, 0.02)] {
         let round = (chords / 4).max(4);
         let lip = arc(40.0, 1.0, 0.0, PI, round).take(round as usize).skip(1);
         let profile: Vec<[f64; 2]> = arc(0.0, 41.0, -FRAC_PI_2, 0.0, chords)
