@@ -101,6 +101,13 @@ struct Wanted {
     thickness: f64,
 }
 
+impl Wanted {
+    /// Whether it is only as exact as chords are: beside facets of walls, or of ends.
+    fn is_soft(&self) -> bool {
+        !(self.facets.is_empty() && self.end_facets.is_empty())
+    }
+}
+
 impl Replacement<'_> {
     /// Where all nodes move to; those of facets that would turn over move upright in any case. O(n).
     pub(super) fn moved(&self, way: Way) -> Moved {
@@ -122,7 +129,7 @@ impl Replacement<'_> {
         self.take_along(&mut positions);
         Moved {
             positions,
-            soft: (0..nodes).into_par_iter().map(|v| !self.wanted(v).facets.is_empty()).collect(),
+            soft: (0..nodes).into_par_iter().map(|v| self.wanted(v).is_soft()).collect(),
             blended: (0..nodes).map(|v| !self.blends.behind(v).is_empty()).collect(),
             flush: (0..nodes).map(|v| self.flush.is_at(v)).collect(),
         }

@@ -1,6 +1,6 @@
 //! Which side of a wall is kept: the one that knows what stands on it.
 
-use crate::deflate::solid_models::{prism, united};
+use crate::deflate::solid_models::{block, prism, united};
 use sheet::deflate::{DeflateOptions, Nobody, deflate};
 
 /// Half a tube whose edges are bent sharply inward would rather be kept on its inside, which does not know of the fin.
@@ -58,4 +58,26 @@ fn ribs_inside_of_a_bend_share_its_nodes_whatever_is_outside() {
     let r = &thin.report;
     assert_eq!([r.patches, r.joints, r.components], [4, 2, 1]);
     assert_eq!((r.self_intersections, r.lost_edges), (0, 0));
+}
+
+/// A ring with a round top runs through a higher rib: its top is made of chords, and ends in one node all the same.
+#[test]
+fn a_ring_that_crosses_a_rib_has_one_node_there() {
+    let ring = |inner: f64, outer: f64, [from, to]: [f64; 2]| {
+        let arc = |radius: f64| {
+            (0..=37).map(move |k| {
+                let angle = std::f64::consts::PI * f64::from(k) / 37.0;
+                [radius * angle.cos(), radius * angle.sin()]
+            })
+        };
+        let inside: Vec<[f64; 2]> = arc(inner).collect();
+        let profile: Vec<[f64; 2]> = arc(outer).chain(inside.into_iter().rev()).collect();
+        let mut ring = prism(&profile, to - from, 1);
+        ring.positions.iter_mut().for_each(|p| p.z += from);
+        ring
+    };
+    let rib = block([9.0, 28.0, 0.0], [11.0, 38.8, 50.0]);
+    let solid = united(&[ring(39.0, 41.0, [0.0, 50.0]), ring(34.0, 39.5, [19.0, 21.0]), rib]);
+    let thin = deflate(&solid, &DeflateOptions::default(), &Nobody).unwrap();
+    assert_eq!([thin.report.free_loops, thin.report.components], [3, 1]);
 }
