@@ -109,6 +109,10 @@ pub(super) fn plan(
             None => curved.push(g),
         }
     }
+    let level = level_sides(solid, segments, walls, middles, gone, kept, moved);
+    for &(g, number, same) in &level {
+        by_plane.entry(number).and_modify(|piece| piece.groups.push((g, same)));
+    }
     let mut planes: Vec<PlanePiece> = by_plane.into_values().collect();
     // The piece faces as most of it did on the solid.
     for piece in &mut planes {
@@ -120,11 +124,53 @@ pub(super) fn plan(
     }
     if options.steps != Steps::Apart {
         let terraced: BTreeSet<u32> = terraces.iter().flat_map(|piece| &piece.groups).map(|g| g.0).collect();
-        planes.extend(steps(solid, segments, walls, middles, gone, kept, &terraced, moved));
-        curved.extend(round_steps(solid, segments, walls, gone, kept, moved));
+        let level: BTreeSet<u32> = level.iter().map(|side| side.0).collect();
+        let steps = steps(solid, segments, walls, middles, gone, kept, &terraced, moved);
+        planes.extend(steps.into_iter().filter(|step| !level.contains(&step.groups[0].0)));
+        let round = round_steps(solid, segments, walls, gone, kept, moved);
+        curved.extend(round.into_iter().filter(|g| !level.contains(g)));
     }
     planes.extend(terraces);
     Plan { planes, curved }
+}
+
+/// Sides of what is raised as much on both sides of a wall: all about them has one mid-plane, so they come to lie in it. With the number of the
+/// plane, and whether they face as it does.
+fn level_sides(
+    solid: &Solid,
+    segments: &Segments,
+    walls: &Walls,
+    middles: &Middles,
+    gone: &[bool],
+    kept: &[bool],
+    moved: &Moved,
+) -> Vec<(u32, u32, bool)> {
+    let level = |g: u32| {
+        if walls.is_wall[g as usize] || gone[g as usize] {
+            return None;
+        }
+        let beside = beside(solid, segments, g);
+        let is_flush = |f: &u32| solid.mesh.faces[*f as usize].iter().any(|v| moved.flush[*v as usize]);
+        if is_end(walls, &beside, kept) || segments.group(g).faces.iter().any(is_flush) {
+            return None;
+        }
+        let mut of_kept = beside.iter().filter(|o| kept[**o as usize]).map(|o| {
+            let middle = middles.only(*o)?;
+            let (_, number) = walls.partners(*o).iter().find_map(|p| middles.between(*o, p.partner))?;
+            Some((number, middle.normal.dot(middles.mid_planes.plane(number).normal) > 0.0))
+        });
+        let first = of_kept.next()??;
+        let mut others = of_kept.peekable();
+        others.peek()?;
+        others.all(|other| other == Some(first)).then_some((g, first.0, first.1))
+    };
+    (0..segments.groups.len() as u32).filter_map(level).collect()
+}
+
+/// The groups that have edges with a group, itself too.
+fn beside(solid: &Solid, segments: &Segments, g: u32) -> BTreeSet<u32> {
+    let sides = segments.group(g).faces.iter().flat_map(|f| 3 * f..3 * f + 3);
+    sides.map(|h| segments.of(solid.across(h))).collect()
 }
 
 /// How long edges may be in a wall whose sides are not parallel.
@@ -155,11 +201,7 @@ fn steps(
         let Some(plane) = group.plane.filter(|_| !walls.is_wall[g as usize] && !gone[g as usize]) else {
             continue;
         };
-        let mut beside: BTreeSet<u32> = BTreeSet::new();
-        for &f in &group.faces {
-            let others = (3 * f..3 * f + 3).map(|h| segments.of(solid.across(h)));
-            beside.extend(others);
-        }
+        let mut beside = beside(solid, segments, g);
         // Round ends that run into it have nodes that stay where they are, and so have lumps at the ends of walls.
         let is_round = |o: &u32| segments.group(*o).plane.is_none() && !walls.is_wall[*o as usize];
         // The steps of plates that step on both sides are made already; the end of other walls may be one of them.
@@ -233,8 +275,7 @@ fn round_steps(
         if group.plane.is_some() || walls.is_wall[*g as usize] || gone[*g as usize] || is_blend() {
             return false;
         }
-        let sides = group.faces.iter().flat_map(|f| 3 * f..3 * f + 3);
-        let mut beside: BTreeSet<u32> = sides.map(|h| segments.of(solid.across(h))).collect();
+        let mut beside = beside(solid, segments, *g);
         if is_end(walls, &beside, kept) {
             return false;
         }

@@ -1,6 +1,8 @@
 //! Plates with slots: what is left between these is no wall of its own, and leaves beside them hang on the plate.
 
-use crate::deflate::solid_models::{prism, turned};
+use mesh_kernel::glam::DVec3;
+
+use crate::deflate::solid_models::{prism, revolved, turned};
 use crate::deflate::support::{deflated, has_topology, near};
 
 /// Slats that are wider than thick: their sides lie opposite to each other as well, and are ends nevertheless.
@@ -99,6 +101,42 @@ fn a_snap_hook_is_a_plate_with_a_leaf() {
     for solid in [&solid, &turned(&solid)] {
         let thin = deflated(solid);
         has_topology(&thin, [3, 1, 2, 1]);
+        assert_eq!(thin.report.steps, 0);
+    }
+}
+
+/// A round plate that is thicker in its middle, as much on both sides. The facets of the side there lean in and out, as those with nodes
+/// over the middles of chords do, so that its upper and lower edges come to lie beside each other; the plate is one nevertheless.
+#[test]
+fn what_is_raised_on_both_sides_is_no_step() {
+    let (inner, outer, chords) = (14.5, 40.0, 46);
+    let profile = [[0.0, -2.0], [inner, -2.0], [inner, -1.0], [outer, -1.0]];
+    let above = profile.iter().rev().map(|[r, z]| [*r, -z]);
+    let mut plate = revolved(&profile.iter().copied().chain(above).collect::<Vec<_>>(), chords, false);
+    let is_side = |face: &[u32; 3]| {
+        let [a, b, c] = face.map(|v| plate.positions[v as usize]);
+        [a, b, c].iter().all(|p| (p.truncate().length() - inner).abs() < 1e-9)
+    };
+    let (sides, others): (Vec<_>, Vec<_>) = plate.faces.iter().copied().partition(|face| {
+        let [a, b, c] = face.map(|v| plate.positions[v as usize].z);
+        is_side(face) && (a != b || b != c)
+    });
+    assert_eq!(sides.len() as u32, 4 * chords);
+    plate.faces = others;
+    for pair in sides.chunks(2) {
+        let &[[a, b, c], [_, _, d]] = pair else { unreachable!("two faces a chord") };
+        let middle = plate.positions[a as usize].midpoint(plate.positions[c as usize]);
+        let node = plate.positions.len() as u32;
+        let out = middle.truncate().normalize() * inner;
+        plate.positions.push(DVec3::new(out.x, out.y, middle.z));
+        plate.faces.extend([[a, b, node], [b, c, node], [c, d, node], [d, a, node]]);
+    }
+    for plate in [&plate, &turned(&plate)] {
+        let thin = deflated(plate);
+        has_topology(&thin, [1, 0, 1, 1]);
+        let polygon = f64::from(chords) / 2.0 * (std::f64::consts::TAU / f64::from(chords)).sin();
+        near(thin.report.area, polygon * outer * outer, 1e-9);
+        near(thin.report.thickness.max, 4.0, 1e-9);
         assert_eq!(thin.report.steps, 0);
     }
 }
