@@ -1,7 +1,7 @@
 //! The report of a deflated solid.
 
 use serde::Serialize;
-use sheet::deflate::{Deflated, Feature, SkinFace, ThicknessRange, UnpairedFace, WallPair};
+use sheet::deflate::{Deflated, Feature, NamedFace, SkinFace, ThicknessRange, WallPair};
 
 /// What `toile deflate` reports; lengths in millimetres, whatever the file's unit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -49,7 +49,9 @@ pub struct DeflateFileReport {
     /// Area times thickness over the volume of the solid.
     pub volume_ratio: f64,
     /// The faces without a partner, the largest first.
-    pub unpaired: Vec<UnpairedFace>,
+    pub unpaired: Vec<NamedFace>,
+    /// Walls that came to have no mid-surface.
+    pub bare: Vec<NamedFace>,
     /// Faces of the solid's skin with their geometry.
     pub skin: Vec<SkinFace>,
     /// Pairs of these that are as far from each other everywhere, and what lies halfway.
@@ -89,6 +91,7 @@ impl DeflateFileReport {
             self_intersections: report.self_intersections,
             volume_ratio: volume_ratio(deflated),
             unpaired: report.unpaired.clone(),
+            bare: report.bare.clone(),
             skin: report.faces.clone(),
             walls: report.wall_pairs.clone(),
         }
@@ -111,6 +114,12 @@ fn warnings(deflated: &Deflated) -> Vec<String> {
         .collect();
     if report.unpaired.len() > NAMED {
         warnings.push(format!("{} more faces have no partner", report.unpaired.len() - NAMED));
+    }
+    warnings.extend(
+        report.bare.iter().take(NAMED).map(|face| format!("{face} is a wall but has no mid-surface")),
+    );
+    if report.bare.len() > NAMED {
+        warnings.push(format!("{} more walls have no mid-surface", report.bare.len() - NAMED));
     }
     if report.steps > 0 {
         warnings.push(format!(

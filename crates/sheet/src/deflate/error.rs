@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::report::UnpairedFace;
+use super::report::NamedFace;
 
 /// Why a solid could not be deflated. Lengths are millimetres.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -66,7 +66,7 @@ pub enum DeflateError {
         /// The largest thickness that was looked for.
         max_thickness: f64,
         /// Faces without a partner, the largest first.
-        unpaired: Vec<UnpairedFace>,
+        unpaired: Vec<NamedFace>,
     },
     /// Both sides of a wall are one, so nothing tells which of its faces to keep.
     #[error("both sides of a wall are one: from ({:.3}, {:.3}, {:.3}) its skin of {area:.1} mm² runs smoothly to its own back, as \
@@ -83,7 +83,7 @@ pub enum DeflateError {
 }
 
 /// The first few faces of many, for a message.
-fn named(faces: &[UnpairedFace]) -> String {
+fn named(faces: &[NamedFace]) -> String {
     const SHOWN: usize = 6;
     let shown: Vec<String> = faces.iter().take(SHOWN).map(ToString::to_string).collect();
     let more = faces.len().saturating_sub(SHOWN);

@@ -31,6 +31,8 @@ const ROUND: f64 = 0.1;
 const TURNS: f64 = 30.0 / 180.0 * std::f64::consts::PI;
 /// A part of a wall is more than this share of its group; less is parallel to what is opposite by chance.
 const PIECE: f64 = 1e-2;
+/// Facets are of a fillet if their nodes are on it up to this share of its radius.
+const ON: f64 = 2e-3;
 /// Looks beside a border begin this share of the way from it to the middle of the face.
 const INSET: f64 = 0.05;
 
@@ -202,21 +204,82 @@ impl Walls {
         };
         let is_fillet = |k: &usize| {
             let face = &faces.list[*k];
-            let small = match face.shape {
-                Shape::Cylinder { radius, .. } | Shape::Sphere { radius, .. } => radius < self.max_thickness,
-                Shape::Torus { minor, .. } => minor < self.max_thickness,
-                _ => false,
-            };
             let g = group(face);
             !has_partner[*k]
                 && face.concave
-                && small
+                && fillet_radius(&face.shape).is_some_and(|radius| radius < self.max_thickness)
                 && self.is_wall[g as usize]
                 && !is_parallel(*k)
                 && has_wall(g, *k)
         };
         let fillets = (0..faces.list.len()).filter(is_fillet);
-        fillets.map(|k| faces.list[k].triangles.clone()).collect()
+        let with_first_row = |k: usize| {
+            let face = &faces.list[k];
+            let mut all =
+                [&face.triangles[..], &self.first_row(solid, segments, faces, &has_partner, face)].concat();
+            all.sort_unstable();
+            all.dedup();
+            all
+        };
+        fillets.map(with_first_row).collect()
+    }
+
+    /// Facets of fillets that are taken for the wall that these run into: beside a wall of few chords, where what is opposite leans by up to half
+    /// the turn of one, the first row of a fillet looks parallel. What has its nodes on the fillet is part of it. By group.
+    pub(super) fn first_rows(
+        &self,
+        solid: &Solid,
+        segments: &Segments,
+        faces: &Faces,
+        pairs: &[WallPair],
+    ) -> Vec<(u32, Vec<u32>)> {
+        let mut has_partner = vec![false; faces.list.len()];
+        pairs.iter().flat_map(|p| p.faces).for_each(|f| has_partner[f] = true);
+        let row = |(k, face): (usize, &Face)| {
+            let group = segments.of(face.triangles[0]);
+            let small = fillet_radius(&face.shape).is_some_and(|radius| radius < self.max_thickness);
+            if !small || !face.concave || has_partner[k] || self.is_wall[group as usize] {
+                return None;
+            }
+            let row = self.first_row(solid, segments, faces, &has_partner, face);
+            (!row.is_empty()).then_some((group, row))
+        };
+        faces.list.iter().enumerate().filter_map(row).collect()
+    }
+
+    /// The facets of curved walls about a fillet that are on it, ascending.
+    fn first_row(
+        &self,
+        solid: &Solid,
+        segments: &Segments,
+        faces: &Faces,
+        has_partner: &[bool],
+        fillet: &Face,
+    ) -> Vec<u32> {
+        let Some(radius) = fillet_radius(&fillet.shape) else { return Vec::new() };
+        let own = segments.of(fillet.triangles[0]);
+        let is_on = |f: u32| {
+            let g = segments.of(f);
+            let lean = fillet.shape.outward(solid.centroid(f)).dot(-solid.normals[f as usize]);
+            segments.group(g).plane.is_none()
+                && (g == own || self.is_wall[g as usize])
+                && !has_partner[faces.of[f as usize] as usize]
+                && lean > SHARP.cos()
+                && solid.mesh.corners(f).iter().all(|p| fillet.shape.distance(*p).abs() < ON * radius)
+        };
+        let mut row: BTreeSet<u32> = BTreeSet::new();
+        let mut next = fillet.triangles.clone();
+        while let Some(f) = next.pop() {
+            for h in 3 * f..3 * f + 3 {
+                let other = solid.across(h);
+                let is_new = fillet.triangles.binary_search(&other).is_err() && !row.contains(&other);
+                if is_new && solid.fold_cosine(h) > SHARP.cos() && is_on(other) {
+                    row.insert(other);
+                    next.push(other);
+                }
+            }
+        }
+        row.into_iter().collect()
     }
 
     /// Insides of bends that run into fillets, as the upright edges of a box run into those of its floor: round faces of groups that are
@@ -280,5 +343,14 @@ impl Walls {
         };
         let area = |of: &mut dyn Iterator<Item = &u32>| of.map(|f| solid.areas[*f as usize]).sum::<f64>();
         area(&mut triangles.iter().filter(is_along)) > MOST * area(&mut triangles.iter())
+    }
+}
+
+/// The radius of what fillets are; `None` for other shapes.
+fn fillet_radius(shape: &Shape) -> Option<f64> {
+    match *shape {
+        Shape::Cylinder { radius, .. } | Shape::Sphere { radius, .. } => Some(radius),
+        Shape::Torus { minor, .. } => Some(minor),
+        _ => None,
     }
 }

@@ -1,6 +1,7 @@
 //! Deflation: a thin solid becomes its mid-surface, stitched and with its thickness (Sheen et al. 2008).
 
 mod assemble;
+mod bare;
 mod blends;
 mod closing;
 mod descent;
@@ -46,7 +47,7 @@ mod walls;
 
 pub use error::DeflateError;
 pub use options::{DeflateOptions, Steps};
-pub use report::{DeflateReport, Feature, SkinFace, ThicknessRange, UnpairedFace, WallPair};
+pub use report::{DeflateReport, Feature, NamedFace, SkinFace, ThicknessRange, WallPair};
 pub use shape::Shape;
 
 use mesh_kernel::TriMesh;
@@ -169,7 +170,9 @@ pub fn deflate(
     let mut wall_pairs = report::wall_pairs(&solid, &segments, &walls, &faces);
     let mut parts = walls.fillets(&solid, &segments, &faces, &wall_pairs);
     parts.extend(walls.bends(&solid, &segments, &faces));
-    if !parts.is_empty() {
+    let rows = walls.first_rows(&solid, &segments, &faces, &wall_pairs);
+    if !parts.is_empty() || !rows.is_empty() {
+        segments.hand_over(&rows, &solid);
         segments.split_off(&parts, &solid);
         walls.pair(&solid, &segments, options);
         faces = Faces::new(&solid, &segments);
@@ -223,7 +226,7 @@ pub fn deflate(
         options,
         watcher,
     };
-    let Chosen { made: Made { sheet, crossing, .. }, with_features } =
+    let Chosen { made: Made { sheet, crossing, .. }, with_features, bare } =
         trials.best(&features.gone, &kept, &others, meeting)?;
     if sheet.faces.is_empty()
         && let Some(error) = one_sided(&solid, &segments, &walls)
@@ -250,6 +253,7 @@ pub fn deflate(
         faces: report::skin_faces(&solid, &faces),
         pairs: walls.pairs.iter().filter(|p| p.group < p.partner).count(),
         unpaired,
+        bare: bare.walls.iter().map(|(g, area)| named(&solid, &segments, *g, *area)).collect(),
         patches: mesh.groups.len(),
         joints: topology.joints,
         free_loops: topology.free_loops,
@@ -295,13 +299,7 @@ const END_WIDTH: f64 = 1.5;
 const ROUND_END: f64 = 1.5;
 
 /// Groups that are no walls, did not go and are wider than some thicknesses, the largest first.
-fn unpaired(
-    solid: &Solid,
-    segments: &Segments,
-    walls: &Walls,
-    gone: &[bool],
-    wider: f64,
-) -> Vec<UnpairedFace> {
+fn unpaired(solid: &Solid, segments: &Segments, walls: &Walls, gone: &[bool], wider: f64) -> Vec<NamedFace> {
     let mut found = Vec::new();
     for ((g, group), is_wall) in segments.groups.iter().enumerate().zip(&walls.is_wall) {
         if *is_wall || gone.get(g).copied().unwrap_or(false) {
@@ -318,14 +316,17 @@ fn unpaired(
         if 2.0 * group.area < wider * walls.max_thickness * outline {
             continue;
         }
-        let largest = group
-            .faces
-            .iter()
-            .max_by(|f, g| solid.areas[**f as usize].total_cmp(&solid.areas[**g as usize]).then(g.cmp(f)));
-        let Some(&largest) = largest else { continue };
-        let kind = if group.plane.is_some() { "plane" } else { "curved" };
-        found.push(UnpairedFace { at: solid.centroid(largest), area: group.area, kind });
+        found.push(named(solid, segments, g as u32, group.area));
     }
     found.sort_by(|a, b| b.area.total_cmp(&a.area));
     found
+}
+
+/// A group as reports name it.
+fn named(solid: &Solid, segments: &Segments, g: u32, area: f64) -> NamedFace {
+    let group = segments.group(g);
+    let area_of = |f: &u32| solid.areas[*f as usize];
+    let largest = group.faces.iter().max_by(|f, g| area_of(f).total_cmp(&area_of(g)).then(g.cmp(f)));
+    let kind = if group.plane.is_some() { "plane" } else { "curved" };
+    NamedFace { at: largest.map_or(glam::DVec3::ZERO, |f| solid.centroid(*f)), area, kind }
 }

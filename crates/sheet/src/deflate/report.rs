@@ -14,9 +14,9 @@ use super::shape::Shape;
 use super::solid::Solid;
 use super::walls::Walls;
 
-/// A face of the solid that has no partner and is no thickness face of a wall.
+/// A face of the solid that something is to be said about.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct UnpairedFace {
+pub struct NamedFace {
     /// A point of it, about its middle.
     pub at: DVec3,
     /// Area in mm².
@@ -25,7 +25,7 @@ pub struct UnpairedFace {
     pub kind: &'static str,
 }
 
-impl fmt::Display for UnpairedFace {
+impl fmt::Display for NamedFace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let p = self.at;
         write!(f, "the {} face of {:.1} mm² at ({:.2}, {:.2}, {:.2})", self.kind, self.area, p.x, p.y, p.z)
@@ -100,7 +100,9 @@ pub struct DeflateReport {
     /// Pairs of walls that lie opposite to each other.
     pub pairs: usize,
     /// Faces without a partner, other than the ends of walls; the largest first.
-    pub unpaired: Vec<UnpairedFace>,
+    pub unpaired: Vec<NamedFace>,
+    /// Walls most of which came to have no mid-surface, with the area that has none.
+    pub bare: Vec<NamedFace>,
     /// Smooth pieces of the mid-surface.
     pub patches: usize,
     /// Lines in which three and more faces meet, from branching to branching.

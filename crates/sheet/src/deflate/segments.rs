@@ -71,6 +71,22 @@ impl Segments {
         Self { groups, of_face, plane_part: regions.of_face }
     }
 
+    /// Hands faces over to other groups that they touch. What this leaves in several pieces is parted.
+    pub(super) fn hand_over(&mut self, rows: &[(u32, Vec<u32>)], solid: &Solid) {
+        for (to, faces) in rows {
+            faces.iter().for_each(|f| self.of_face[*f as usize] = *to);
+            let group = &mut self.groups[*to as usize];
+            group.faces.extend(faces);
+            group.faces.sort_unstable();
+            group.faces.dedup();
+        }
+        self.part_left(solid);
+        for (to, _) in rows {
+            let group = &mut self.groups[*to as usize];
+            group.area = group.faces.iter().map(|f| solid.areas[*f as usize]).sum();
+        }
+    }
+
     /// Makes groups of their own of sets of faces, and of what these leave in several pieces.
     pub(super) fn split_off(&mut self, parts: &[Vec<u32>], solid: &Solid) {
         for part in parts {
@@ -81,6 +97,11 @@ impl Segments {
             }
             self.groups.push(Group { faces: part.clone(), plane: None, area });
         }
+        self.part_left(solid);
+    }
+
+    /// Takes faces that are others' now from groups.
+    fn part_left(&mut self, solid: &Solid) {
         let mut parted: Vec<u32> = Vec::new();
         for (g, group) in (0u32..).zip(&mut self.groups) {
             let before = group.faces.len();

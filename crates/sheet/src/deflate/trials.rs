@@ -8,6 +8,7 @@ use std::cell::OnceCell;
 use mesh_kernel::TriMesh;
 
 use super::assemble::{Moved, Sheet, Source, assemble};
+use super::bare::Bare;
 use super::exact::Exact;
 use super::follow::{Follow, split_to};
 use super::middle::Middles;
@@ -62,6 +63,8 @@ pub(super) struct Chosen {
     pub(super) made: Made,
     /// Whether it has what was to be removed.
     pub(super) with_features: bool,
+    /// What has no mid-surface.
+    pub(super) bare: Bare,
 }
 
 impl Made {
@@ -92,7 +95,10 @@ impl Trials<'_> {
     ) -> Result<Chosen, DeflateError> {
         let (assembled, mut best) = self.as_it_comes(gone, kept, &meeting);
         if best.faults() > 0 || best.astray > FOLDED || best.torn > 0 {
-            let is_true = |made: &Made| made.faults() == 0 && made.astray < best.astray.max(ASTRAY);
+            let is_true = |made: &Made| {
+                let is_true = made.faults() == 0 && made.astray < best.astray.max(ASTRAY);
+                is_true && self.bare(made, gone).area() <= self.bare(&best, gone).area()
+            };
             let read_off = self.read_off().filter(is_true);
             best = match read_off {
                 Some(made) => self.rounded(made),
@@ -131,12 +137,29 @@ impl Trials<'_> {
             let truer = is_as_good && trial.astray < TRUER * best.astray;
             // Where it does not meet the rest, it is in pieces or has holes, or joints beside each other. With features it has more anyway.
             let meets = (is_with && !with_features) || trial.seams() <= best.seams();
-            if (fewer || truer) && meets {
+            let is_as_whole = || self.bare(&trial, gone).area() <= self.bare(&best, gone).area();
+            if (fewer || truer) && meets && is_as_whole() {
                 best = trial;
                 with_features = is_with;
             }
         }
-        Ok(Chosen { made: best, with_features })
+        let mut bare = self.bare(&best, gone);
+        if let Some(kept) = bare.kept_behind_lumps(self.walls, self.middles, kept) {
+            let gone = if with_features { &with_all } else { gone };
+            let trial = self.stitched(gone, &kept, &meeting);
+            let left = self.bare(&trial, gone);
+            // The hole before a lump is a border of its own.
+            let is_no_worse = trial.faults() <= best.faults() && trial.torn <= best.torn;
+            if is_no_worse && trial.seams() < best.seams() && left.area() < bare.area() {
+                (best, bare) = (trial, left);
+            }
+        }
+        Ok(Chosen { made: best, with_features, bare })
+    }
+
+    /// What of the walls has no mid-surface, but for what is to be removed.
+    fn bare(&self, made: &Made, gone: &[bool]) -> Bare {
+        Bare::new(&made.sheet, self.solid, self.segments, self.walls, gone)
     }
 
     /// The sheet stitched together. If it crosses itself, it is mended.

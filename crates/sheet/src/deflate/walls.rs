@@ -33,6 +33,21 @@ pub(super) struct Opposite {
     pub(super) distance: f64,
 }
 
+/// What is seen from a point of a wall's face into the material.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Through {
+    /// The face.
+    pub(super) face: u32,
+    /// The point.
+    pub(super) from: DVec3,
+    /// How far the other side of the wall is, in mm; `None` where there is none.
+    pub(super) thickness: Option<f64>,
+    /// Whether there is material for more than walls are thick.
+    pub(super) is_thick: bool,
+    /// The area that it stands for, in mm².
+    pub(super) area: f64,
+}
+
 /// The walls of a solid.
 #[derive(Debug)]
 pub(super) struct Walls {
@@ -177,6 +192,31 @@ impl Walls {
             [cast, ..] => cast.hit.filter(|hit| hit.distance <= self.max_thickness),
             [] => None,
         }
+    }
+
+    /// Looks from every so-manyth face of all walls into the material.
+    pub(super) fn looks<'a>(
+        &'a self,
+        solid: &'a Solid,
+        segments: &'a Segments,
+        every: usize,
+    ) -> impl ParallelIterator<Item = Through> + 'a {
+        let is_wall = move |f: u32| self.is_wall[segments.of(f) as usize];
+        let of_face = move |f: u32| {
+            let casts = &self.casts[self.firsts[f as usize] as usize..];
+            let casts = casts.iter().take_while(move |cast| cast.face == f);
+            let rows = casts.clone().count().isqrt() as u32;
+            let through = move |(from, cast): (DVec3, &Cast)| {
+                let hit = cast.hit.filter(|hit| hit.distance <= self.max_thickness);
+                let faces =
+                    |hit: &Opposite| is_wall(hit.face) && self.faces_back(solid, segments, f, hit.face);
+                let thickness = hit.filter(faces).map(|hit| hit.distance);
+                Through { face: f, from, thickness, is_thick: hit.is_none(), area: cast.area }
+            };
+            spread(solid.mesh.corners(f), rows).zip(casts).map(through)
+        };
+        let faces = (0..solid.len()).into_par_iter().step_by(every).filter(move |f| is_wall(*f));
+        faces.flat_map_iter(of_face)
     }
 
     /// Whether a face that is seen from another one through the material faces it.

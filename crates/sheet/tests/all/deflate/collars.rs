@@ -6,6 +6,7 @@ use crate::deflate::solid_models::{revolved, turned};
 use crate::deflate::support::{deflated, has_topology, near};
 use mesh_kernel::TriMesh;
 use mesh_kernel::glam::{DVec2, DVec3};
+use mesh_kernel::merge::{Boolean, MergeOptions, boolean};
 use sheet::deflate::{DeflateOptions, Nobody, deflate};
 
 /// Rings about z, each joined to the next one and the last to the first: radius, height, and how many nodes.
@@ -134,4 +135,30 @@ fn a_tube_on_a_cone_ends_on_its_middle() {
     let ring = chord * (40.0 * 40.0 - 8.0 * 8.0) / 2.0 * (slope * slope + (PI / 60.0).cos().powi(2)).sqrt();
     let tube = chord * 20.0 * (high - slope * 20.0 + below / 2.0);
     near(thin.report.area, ring + tube, 1e-4);
+}
+
+/// A hollow boss with a finely meshed fillet at its root and a coarsely meshed hole: beside the chords of the hole the first row of the fillet
+/// looks parallel, and is part of the fillet nevertheless. Where it was taken for the wall, the boss flared out towards its plate.
+#[test]
+fn the_first_row_of_a_fillet_is_no_wall() {
+    let (outer, hole, fillet, floor) = (4.5, 3.0, 0.7, 2.1);
+    let mut profile = vec![[0.0, 0.0], [20.0, 0.0], [20.0, floor]];
+    for k in 0..=4 {
+        let turn = std::f64::consts::FRAC_PI_2 * f64::from(k) / 4.0;
+        profile.push([outer + fillet * (1.0 - turn.sin()), floor + fillet * (1.0 - turn.cos())]);
+    }
+    profile.extend([[outer, 17.0], [0.0, 17.0]]);
+    let boss = revolved(&profile, 88, false);
+    let drill = revolved(&[[0.0, floor], [hole, floor], [hole, 20.0], [0.0, 20.0]], 15, false);
+    let boss = boolean(&[&boss, &drill], Boolean::Difference, &MergeOptions::default()).unwrap().mesh;
+    let thin = deflated(&boss);
+    has_topology(&thin, [3, 1, 2, 1]);
+    let radius = (outer + hole) / 2.0;
+    let near = thin.sheet.positions.iter().filter(|p| (p.z - floor / 2.0).abs() < 1e-6);
+    let joint: Vec<f64> =
+        near.map(|p| p.truncate().length()).filter(|r| (r - radius).abs() < 0.5 * radius).collect();
+    assert!(joint.len() > 15);
+    for r in joint {
+        assert!((r - radius).abs() < 0.1, "{r} mm from the axis");
+    }
 }

@@ -6,6 +6,7 @@ mod divided;
 mod embossed;
 mod flush;
 mod folded;
+mod lumps;
 mod plates;
 mod rim_support;
 mod rims;
