@@ -10,7 +10,7 @@ use super::fill::{Outline, fill};
 use super::looks::mean_thickness;
 use super::middle::Middles;
 use super::nearness::Nearness;
-use super::plan::{Plan, border, plan};
+use super::plan::{Cells, Plan, PlanePiece, border, plan};
 use super::plane::Plane;
 use super::seams::{Merged, Seams};
 use super::segments::Segments;
@@ -98,9 +98,9 @@ pub(super) fn assemble(
     let plane_of =
         |k: u32| plan.planes.get(k as usize).filter(|piece| !piece.is_step).map(|piece| piece.plane);
     seams.put_on_planes(plane_of, near);
-    let length_of = |k: u32| {
-        let own = plan.planes.get(k as usize).and_then(|piece| piece.edge_length);
-        own.into_iter().chain(options.edge_length).fold(f64::INFINITY, f64::min)
+    let length_of = |k: u32, direction: DVec3| {
+        let cells = cells(plan.planes.get(k as usize), options);
+        cells.map_or(f64::INFINITY, |cells| cells.length_in(direction))
     };
     seams.refine(length_of);
     let mut sheet = Sheet { positions: seams.positions.clone(), ..Sheet::default() };
@@ -132,6 +132,12 @@ fn closed_edges(solid: &Solid, segments: &Segments, plan: &Plan, moved: &[DVec3]
         }
     }
     merged
+}
+
+/// How large the triangles of a piece may be. A length that was asked for is one in all directions.
+fn cells(piece: Option<&PlanePiece>, options: &DeflateOptions) -> Option<Cells> {
+    let asked = options.edge_length.map(|length| Cells { length, along: None });
+    piece.and_then(|piece| piece.cells).into_iter().chain(asked).reduce(Cells::both)
 }
 
 #[allow(clippy::too_many_arguments, reason = "one call, all of them what the piece is made of")]
@@ -166,8 +172,8 @@ fn add_planes(
         }
         let on = |v: u32| piece.plane.height(sheet.positions[v as usize]).abs() < rounding;
         outline.lines = all.iter().copied().filter(|[a, b]| on(*a) && on(*b)).collect();
-        let length = piece.edge_length.into_iter().chain(options.edge_length).min_by(f64::total_cmp);
-        if length.is_none() && !piece.is_step && piece.outline.is_empty() {
+        let cells = cells(Some(piece), options);
+        if cells.is_none() && !piece.is_step && piece.outline.is_empty() {
             let near = Near::new(&outline, &sheet.positions, margin);
             let mut inside: BTreeSet<u32> = BTreeSet::new();
             for (g, _) in &piece.groups {
@@ -181,7 +187,7 @@ fn add_planes(
                 .collect();
         }
         let number = sheet.planes.len() as u32;
-        let filled = fill(&outline, &sheet.positions, length);
+        let filled = fill(&outline, &sheet.positions, cells);
         sheet.positions.extend(filled.added);
         sheet.sources.extend(filled.faces.iter().map(|_| Source::Plane(number)));
         sheet.faces.extend(filled.faces);

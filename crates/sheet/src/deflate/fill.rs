@@ -10,6 +10,7 @@ use spade::{
     AngleLimit, ConstrainedDelaunayTriangulation, HasPosition, Point2, RefinementParameters, Triangulation,
 };
 
+use super::plan::{Cells, LONG};
 use super::plane::Plane;
 
 /// A node of the triangulation; nodes that refinement adds have no number yet.
@@ -55,14 +56,19 @@ pub(super) struct Filled {
 
 type Cdt = ConstrainedDelaunayTriangulation<Corner>;
 
-/// Triangulates what the outline winds about. With `edge_length`, triangles inside are refined to about that size; edges
+/// Triangulates what the outline winds about. With `cells`, triangles inside are refined to about that size; edges
 /// of the outline stay as they are. O(n log n).
-pub(super) fn fill(outline: &Outline, positions: &[DVec3], edge_length: Option<f64>) -> Filled {
-    let [x, y] = outline.plane.frame();
+pub(super) fn fill(outline: &Outline, positions: &[DVec3], cells: Option<Cells>) -> Filled {
+    // Drawn so much narrower that cells are as long as wide.
+    let along = cells.and_then(|cells| cells.along?.reject_from(outline.plane.normal).try_normalize());
+    let ([x, y], long) = match along {
+        Some(along) => ([along, outline.plane.normal.cross(along)], LONG),
+        None => (outline.plane.frame(), 1.0),
+    };
     let origin = outline.edges.first().map_or(DVec3::ZERO, |e| positions[e[0] as usize]);
     let flat = |v: u32| {
         let p = positions[v as usize] - origin;
-        DVec2::new(p.dot(x), p.dot(y))
+        DVec2::new(p.dot(x), p.dot(y) / long)
     };
     let mut cdt = Cdt::new();
     let mut handles = BTreeMap::new();
@@ -102,7 +108,7 @@ pub(super) fn fill(outline: &Outline, positions: &[DVec3], edge_length: Option<f
                 if from < to { turns } else { -turns };
         }
     }
-    if let Some(length) = edge_length {
+    if let Some(Cells { length, .. }) = cells {
         // Keeping the edges, so that neighbours still agree; outside is refined in vain but not by much.
         let area = 0.433 * length * length;
         let whole: f64 = cdt.inner_faces().map(|f| f.area()).sum();
@@ -125,7 +131,7 @@ pub(super) fn fill(outline: &Outline, positions: &[DVec3], edge_length: Option<f
             corner.node.map_or_else(
                 || {
                     *added.entry(v.index()).or_insert_with(|| {
-                        let lifted = origin + x * corner.at.x + y * corner.at.y;
+                        let lifted = origin + x * corner.at.x + y * (long * corner.at.y);
                         filled.added.push(lifted - outline.plane.normal * outline.plane.height(lifted));
                         first + filled.added.len() as u32 - 1
                     })

@@ -16,7 +16,7 @@ use super::{DeflateOptions, Steps};
 /// Sides of a wall whose normals differ by less than this are parallel.
 const PARALLEL: f64 = 1e-4;
 /// The thickness changes by this share along an edge of a wall with draft.
-const EVEN: f64 = 0.01;
+const EVEN: f64 = 0.0125;
 /// Between walls whose normals differ by a sine of more than this are no steps.
 const PARALLEL_LEVELS: f64 = 0.15;
 /// Strips narrower than this share of the thickness are no steps.
@@ -37,14 +37,41 @@ pub(super) struct PlanePiece {
     /// Whether it joins two middles where the thickness steps.
     pub(super) is_step: bool,
     /// How long edges may be so that the thickness is nearly even in every triangle; `None` where it is even.
-    pub(super) edge_length: Option<f64>,
+    pub(super) cells: Option<Cells>,
     /// Directed edges about the piece, as its plane faces; if there are any, the borders of its groups do not count.
     pub(super) outline: Vec<[u32; 2]>,
 }
 
+/// How large triangles may be.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cells {
+    /// The longest edge, in mm.
+    pub(super) length: f64,
+    /// If this matters in one direction only, as the thickness of a wall with draft does, the direction: across it edges are [`LONG`] times as long.
+    pub(super) along: Option<DVec3>,
+}
+
+/// How long triangles are, over their width, where only the latter matters.
+pub(super) const LONG: f64 = 8.0;
+
+impl Cells {
+    /// Small enough for both.
+    pub(super) fn both(a: Self, b: Self) -> Self {
+        let same = a.along.zip(b.along).filter(|(a, b)| a.dot(*b).abs() > 1.0 - PARALLEL);
+        Self { length: a.length.min(b.length), along: same.map(|(a, _)| a) }
+    }
+
+    /// How long an edge in a direction may be.
+    pub(super) fn length_in(&self, direction: DVec3) -> f64 {
+        let Some(along) = self.along else { return self.length };
+        let (far, near) = (along.dot(direction), direction.reject_from_normalized(along).length());
+        self.length * direction.length() / far.hypot(near / LONG).max(f64::MIN_POSITIVE)
+    }
+}
+
 impl PlanePiece {
     pub(super) fn new(plane: Plane, is_step: bool) -> Self {
-        Self { plane, groups: Vec::new(), is_step, edge_length: None, outline: Vec::new() }
+        Self { plane, groups: Vec::new(), is_step, cells: None, outline: Vec::new() }
     }
 
     /// The directed edges about the piece, as its plane faces.
@@ -101,10 +128,7 @@ pub(super) fn plan(
                 let piece = piece.or_insert_with(|| PlanePiece::new(shared, false));
                 piece.groups.push((g, plane.normal.dot(shared.normal) > 0.0));
                 let even = even_length(segments, walls, g);
-                piece.edge_length = match (piece.edge_length, even) {
-                    (Some(a), Some(b)) => Some(a.min(b)),
-                    (a, b) => a.or(b),
-                };
+                piece.cells = piece.cells.into_iter().chain(even).reduce(Cells::both);
             }
             None => curved.push(g),
         }
@@ -174,13 +198,14 @@ fn beside(solid: &Solid, segments: &Segments, g: u32) -> BTreeSet<u32> {
 }
 
 /// How long edges may be in a wall whose sides are not parallel.
-fn even_length(segments: &Segments, walls: &Walls, g: u32) -> Option<f64> {
+fn even_length(segments: &Segments, walls: &Walls, g: u32) -> Option<Cells> {
     let own = segments.group(g).plane?;
     let of_pair = |p: &Pair| {
-        let slope = (own.normal + segments.group(p.partner).plane?.normal).length();
-        (slope > PARALLEL).then(|| EVEN * p.thickness / slope)
+        let slope = own.normal + segments.group(p.partner).plane?.normal;
+        let cells = Cells { length: EVEN * p.thickness / slope.length(), along: slope.try_normalize() };
+        (slope.length() > PARALLEL).then_some(cells)
     };
-    walls.partners(g).iter().filter_map(of_pair).min_by(f64::total_cmp)
+    walls.partners(g).iter().filter_map(of_pair).reduce(Cells::both)
 }
 
 /// Faces without a partner that stand between two middles: where the thickness steps.

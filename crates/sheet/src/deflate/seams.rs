@@ -203,12 +203,13 @@ impl Seams {
         }
     }
 
-    /// Cuts borders into parts of about a length at most that their pieces ask for. With this they are done.
-    pub(super) fn refine(&mut self, length_of: impl Fn(u32) -> f64) {
+    /// Cuts borders into parts of about a length at most that their pieces ask for in a direction. With this they are done.
+    pub(super) fn refine(&mut self, length_of: impl Fn(u32, DVec3) -> f64) {
         let mut lengths: BTreeMap<[u32; 2], f64> = BTreeMap::new();
         for (path, pieces) in self.paths.iter().zip(&self.pieces) {
-            let length = pieces.iter().map(|p| length_of(*p)).fold(f64::INFINITY, f64::min);
             for pair in path.windows(2) {
+                let [p, q] = [pair[0], pair[1]].map(|v| self.positions[v as usize]);
+                let length = pieces.iter().map(|k| length_of(*k, q - p)).fold(f64::INFINITY, f64::min);
                 let least = lengths.entry([pair[0].min(pair[1]), pair[0].max(pair[1])]).or_insert(length);
                 *least = least.min(length);
             }
@@ -543,7 +544,7 @@ mod tests {
         merged.join(1, 3);
         let near = Nearness { rounding: 1e-6, chords: 0.7 };
         let mut seams = Seams::new(positions.to_vec(), merged, &borders, 1, &[true; 4], near);
-        seams.refine(|piece| if piece == 0 { 30.0 } else { f64::INFINITY });
+        seams.refine(|piece, _| if piece == 0 { 30.0 } else { f64::INFINITY });
         assert_eq!(seams.path(0, 1).len(), 4);
         assert_eq!(seams.path(2, 3), seams.path(0, 1));
         assert_eq!(seams.path(3, 2), seams.path(1, 0));
