@@ -6,11 +6,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use mesh_kernel::TriMesh;
-use mesh_kernel::query::ClosestPoint;
+use mesh_kernel::query::RayCaster;
 use rayon::prelude::*;
 
-use super::assemble::Sheet;
 use super::looks::mean_thickness;
 use super::middle::Middles;
 use super::segments::Segments;
@@ -19,10 +17,9 @@ use super::walls::{Through, Walls};
 
 /// About so many faces are looked through.
 const LOOKED_AT: usize = 20_000;
-/// The sheet is within this share of a wall's thickness of its middle, or it is not there.
-const WITHIN: f64 = 0.5;
-/// The same where the thickness is not seen: corners of walls have their middles aside.
-const WITHIN_LUMP: f64 = 0.75;
+/// Where nothing is opposite, the middle of a wall beside is looked for in so many directions within this share of the thickness.
+const AROUND: u32 = 8;
+const BESIDE: f64 = 0.8;
 /// A wall is bare if more than this share of it is.
 const MOSTLY: f64 = 0.5;
 
@@ -36,27 +33,32 @@ pub(super) struct Bare {
 }
 
 impl Bare {
-    /// Looks for walls without a mid-surface, but for those that are gone. O(log n) in faces of the sheet for each of few looks, and O(n log n).
+    /// Looks for walls without a mid-surface, but for those that are gone. `sheet`: rays that its faces stop. O(log n) for each of few looks.
     pub(super) fn new(
-        sheet: &Sheet,
+        sheet: &RayCaster,
         solid: &Solid,
         segments: &Segments,
         walls: &Walls,
         gone: &[bool],
     ) -> Self {
-        let closest = ClosestPoint::new(&TriMesh::new(sheet.positions.clone(), sheet.faces.clone()));
         let every = solid.len() as usize / LOOKED_AT + 1;
         let thickness: Vec<Option<f64>> =
             (0..segments.groups.len() as u32).map(|g| mean_thickness(walls.partners(g))).collect();
         let is_bare = |look: &Through| {
-            let group = segments.of(look.face);
-            let (thickness, within) = match (look.thickness, thickness[group as usize]) {
-                (Some(thickness), _) => (thickness, WITHIN),
-                (None, Some(thickness)) => (thickness, WITHIN_LUMP),
-                _ => return false,
+            let Some(usual) = thickness[segments.of(look.face) as usize] else { return false };
+            let inward = -solid.normals[look.face as usize];
+            let through = look.thickness.unwrap_or(usual);
+            if sheet.first(look.from, inward, 0.0, through).is_some() {
+                return false;
+            }
+            // In the corner of two walls the middle of the other one is beside it.
+            let middle = look.from + inward * (through / 2.0);
+            let (x, y) = inward.any_orthonormal_pair();
+            let is_beside = |k: u32| {
+                let (sine, cosine) = (std::f64::consts::TAU * f64::from(k) / f64::from(AROUND)).sin_cos();
+                sheet.first(middle, x * cosine + y * sine, 0.0, BESIDE * usual).is_some()
             };
-            let middle = look.from - solid.normals[look.face as usize] * (thickness / 2.0);
-            closest.closest_within(middle, within * thickness).is_none()
+            look.thickness.is_some() || !(0..AROUND).any(is_beside)
         };
         let looks: Vec<(Through, bool)> =
             walls.looks(solid, segments, every).map(|look| (look, is_bare(&look))).collect();

@@ -17,6 +17,7 @@ mod flares;
 mod flats;
 mod flush;
 mod follow;
+mod imprint;
 mod looks;
 mod middle;
 mod nearness;

@@ -6,11 +6,13 @@
 use std::cell::OnceCell;
 
 use mesh_kernel::TriMesh;
+use mesh_kernel::query::{Crossings, RayCaster};
 
 use super::assemble::{Moved, Sheet, Source, assemble};
 use super::bare::Bare;
 use super::exact::Exact;
 use super::follow::{Follow, split_to};
+use super::imprint::{imprinted, loose_length};
 use super::middle::Middles;
 use super::offset::read_off;
 use super::remesh::Remesh;
@@ -19,7 +21,7 @@ use super::segments::Segments;
 use super::solid::Solid;
 use super::topology::{Topology, components};
 use super::twins::Twins;
-use super::untangle::{astray, crossing_faces, untangle};
+use super::untangle::{astray, untangle};
 use super::walls::Walls;
 use super::{DeflateError, DeflateOptions, Steps, Watcher};
 
@@ -29,6 +31,8 @@ const FOLDED: f64 = 5e-3;
 const ASTRAY: f64 = 0.05;
 /// A sheet is truer than another if it has less than this share of what that has astray.
 const TRUER: f64 = 0.5;
+/// What is left of loose borders, over what there was, if imprinting them was of use.
+const LOOSE: f64 = 0.5;
 /// So many times what comes to cross is held before.
 const HOLDINGS: usize = 5;
 
@@ -52,6 +56,8 @@ pub(super) struct Made {
     pub(super) sheet: Sheet,
     /// Pairs of faces that cross.
     pub(super) crossing: Vec<(u32, u32)>,
+    /// Rays that its faces stop.
+    caster: RayCaster,
     /// In how many more parts than the solid it is.
     torn: usize,
     /// The share of its curved pieces that is not in the middle of the wall.
@@ -154,12 +160,23 @@ impl Trials<'_> {
                 (best, bare) = (trial, left);
             }
         }
+        let imprinted =
+            imprinted(&best.sheet, &best.caster, self.walls.max_thickness).map(|sheet| self.made(sheet));
+        if let Some(trial) = imprinted {
+            let loose = |made: &Made| loose_length(&made.sheet, &made.caster, self.walls.max_thickness);
+            if trial.faults() <= best.faults()
+                && trial.torn <= best.torn
+                && loose(&trial) < LOOSE * loose(&best)
+            {
+                best = trial;
+            }
+        }
         Ok(Chosen { made: best, with_features, bare })
     }
 
     /// What of the walls has no mid-surface, but for what is to be removed.
     fn bare(&self, made: &Made, gone: &[bool]) -> Bare {
-        Bare::new(&made.sheet, self.solid, self.segments, self.walls, gone)
+        Bare::new(&made.caster, self.solid, self.segments, self.walls, gone)
     }
 
     /// The sheet stitched together. If it crosses itself, it is mended.
@@ -237,10 +254,13 @@ impl Trials<'_> {
 
     fn made(&self, sheet: Sheet) -> Made {
         let Self { solid, segments, walls, .. } = *self;
-        let crossing = crossing_faces(&sheet, |_| true);
+        let mesh = TriMesh::new(sheet.positions.clone(), sheet.faces.clone());
+        let crossings = Crossings::new(&mesh);
+        let crossing = crossings.self_crossing();
+        let caster = crossings.caster(&mesh);
         let astray = astray(&sheet, solid, segments, walls);
         let parts = components(sheet.positions.len(), &sheet.faces);
         let torn = if self.options.steps == Steps::Apart { 0 } else { parts.saturating_sub(self.parts) };
-        Made { sheet, crossing, torn, astray }
+        Made { sheet, crossing, caster, torn, astray }
     }
 }

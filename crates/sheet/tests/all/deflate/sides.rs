@@ -1,6 +1,8 @@
 //! Which side of a wall is kept: the one that knows what stands on it.
 
-use crate::deflate::solid_models::{block, prism, united};
+use crate::deflate::solid_models::{block, prism, revolved, united};
+use crate::deflate::support::{deflated, has_topology, near};
+use mesh_kernel::glam::DMat3;
 use sheet::deflate::{DeflateOptions, Nobody, deflate};
 
 /// Half a tube whose edges are bent sharply inward would rather be kept on its inside, which does not know of the fin.
@@ -80,4 +82,26 @@ fn a_ring_that_crosses_a_rib_has_one_node_there() {
     let solid = united(&[ring(39.0, 41.0, [0.0, 50.0]), ring(34.0, 39.5, [19.0, 21.0]), rib]);
     let thin = deflate(&solid, &DeflateOptions::default(), &Nobody).unwrap();
     assert_eq!([thin.report.free_loops, thin.report.components], [3, 1]);
+}
+
+/// A tube with fins outside and others inside, at other angles: the side that is kept has edges of the one kind only, and the others end on it
+/// nevertheless.
+#[test]
+fn fins_on_both_sides_of_a_tube_are_joined_to_it() {
+    for (chords, turn) in [(24, 0.07), (24, 0.13), (60, 0.07)] {
+        let fin = |from: f64, to: f64, angle: f64| {
+            let mut fin = block([from, -0.75, 0.0], [to, 0.75, 30.0]);
+            fin.positions.iter_mut().for_each(|p| *p = DMat3::from_rotation_z(angle) * *p);
+            fin
+        };
+        let tube = revolved(&[[19.0, 0.0], [21.0, 0.0], [21.0, 30.0], [19.0, 30.0]], chords, true);
+        let outside = (0..5).map(|k| fin(20.0, 35.0, std::f64::consts::TAU * f64::from(k) / 5.0));
+        let inside = (0..3).map(|k| fin(8.0, 20.0, turn + std::f64::consts::TAU * f64::from(k) / 3.0));
+        let solid = united(&std::iter::once(tube).chain(outside).chain(inside).collect::<Vec<_>>());
+        let thin = deflated(&solid);
+        // Five pieces of the tube are cut by three more fins.
+        has_topology(&thin, [16, 8, 9, 1]);
+        let area = std::f64::consts::TAU * 20.0 * 30.0 + 30.0 * (5.0 * 15.0 + 3.0 * 12.0);
+        near(thin.report.area, area, 5e-3);
+    }
 }
