@@ -4,7 +4,7 @@
 //! no place for it. Where something solid stands on one side of a wall, that side has a hole there and the other one has none. Looks through
 //! the material tell both.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use mesh_kernel::query::RayCaster;
 use rayon::prelude::*;
@@ -15,7 +15,7 @@ use super::segments::Segments;
 use super::solid::Solid;
 use super::walls::{Through, Walls};
 
-/// About so many faces are looked through.
+/// Of the faces that are smaller than if the skin had so many, about so many are looked from.
 const LOOKED_AT: usize = 20_000;
 /// Where nothing is opposite, the middle of a wall beside is looked for in so many directions within this share of the thickness.
 const AROUND: u32 = 8;
@@ -41,7 +41,6 @@ impl Bare {
         walls: &Walls,
         gone: &[bool],
     ) -> Self {
-        let every = solid.len() as usize / LOOKED_AT + 1;
         let thickness: Vec<Option<f64>> =
             (0..segments.groups.len() as u32).map(|g| mean_thickness(walls.partners(g))).collect();
         let is_bare = |look: &Through| {
@@ -60,23 +59,38 @@ impl Bare {
             };
             look.thickness.is_some() || !(0..AROUND).any(is_beside)
         };
-        let looks: Vec<(Through, bool)> =
-            walls.looks(solid, segments, every).map(|look| (look, is_bare(&look))).collect();
+        let whole: f64 = solid.areas.iter().sum();
+        let every = solid.len() as usize / LOOKED_AT + 1;
         // What is seen, what of this is bare, and what is bare before lumps.
-        let mut of_group: BTreeMap<u32, [f64; 3]> = BTreeMap::new();
-        for (look, is_bare) in looks {
-            let group = segments.of(look.face);
-            let area = look.area * every as f64;
-            let bare = if is_bare { area } else { 0.0 };
-            let [seen, unseen, before_lump] = of_group.entry(group).or_default();
-            if look.thickness.is_some() {
-                *seen += area;
-                *unseen += bare;
-            } else if look.is_thick && segments.group(group).plane.is_some() {
-                *before_lump += bare;
+        let of_group = |g: u32| {
+            let group = segments.group(g);
+            let is_large = |f: &u32| solid.areas[*f as usize] * LOOKED_AT as f64 > whole;
+            let (large, small): (Vec<u32>, Vec<u32>) = group.faces.iter().partition(|f| is_large(f));
+            let looked_at: Vec<u32> = small.iter().copied().step_by(every).collect();
+            let area = |faces: &[u32]| faces.iter().map(|f| solid.areas[*f as usize]).sum::<f64>();
+            // Some of the small ones stand for all.
+            let share = area(&small) / area(&looked_at).max(f64::MIN_POSITIVE);
+            let faces = large.iter().map(|f| (*f, 1.0)).chain(looked_at.iter().map(|f| (*f, share)));
+            let [mut seen, mut unseen, mut before_lump] = [0.0; 3];
+            for (f, share) in faces {
+                for look in walls.looks(solid, segments, f) {
+                    let area = look.area * share;
+                    let bare = if is_bare(&look) { area } else { 0.0 };
+                    if look.thickness.is_some() {
+                        seen += area;
+                        unseen += bare;
+                    } else if look.is_thick && group.plane.is_some() {
+                        before_lump += bare;
+                    }
+                }
             }
-        }
-        of_group.retain(|g, _| !gone[*g as usize]);
+            (g, [seen, unseen, before_lump])
+        };
+        let of_group: Vec<(u32, [f64; 3])> = (0..segments.groups.len() as u32)
+            .into_par_iter()
+            .filter(|g| walls.is_wall[*g as usize] && !gone[*g as usize])
+            .map(of_group)
+            .collect();
         // Lugs that are no wider than they are thick are ends.
         let least = walls.max_thickness * walls.max_thickness;
         let mut found = Self::default();

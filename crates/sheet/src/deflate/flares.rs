@@ -242,7 +242,7 @@ impl Walls {
                 return None;
             }
             let row = self.first_row(solid, segments, faces, &has_partner, face);
-            (!row.is_empty()).then_some((group, row))
+            row.iter().any(|f| segments.of(*f) != group).then_some((group, row))
         };
         faces.list.iter().enumerate().filter_map(row).collect()
     }

@@ -19,6 +19,8 @@ const PARALLEL: f64 = 1e-4;
 const EVEN: f64 = 0.0125;
 /// Between walls whose normals differ by a sine of more than this are no steps.
 const PARALLEL_LEVELS: f64 = 0.15;
+/// Nodes are in a plane to this share of the solid's size.
+const ROUNDING: f64 = 1e-6;
 /// Strips narrower than this share of the thickness are no steps.
 const STEP: f64 = 0.02;
 
@@ -186,7 +188,11 @@ fn level_sides(
         let first = of_kept.next()??;
         let mut others = of_kept.peekable();
         others.peek()?;
-        others.all(|other| other == Some(first)).then_some((g, first.0, first.1))
+        let plane = middles.mid_planes.plane(first.0);
+        let is_in_it = |v: u32| plane.height(moved.positions[v as usize]).abs() < ROUNDING * solid.size;
+        // A bead that runs across a plate arches out of it at its ends.
+        let is_level = || border(solid, segments, gone, g).all(|edge| edge.into_iter().all(is_in_it));
+        (others.all(|other| other == Some(first)) && is_level()).then_some((g, first.0, first.1))
     };
     (0..segments.groups.len() as u32).filter_map(level).collect()
 }

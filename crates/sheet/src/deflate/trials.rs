@@ -12,7 +12,8 @@ use super::assemble::{Moved, Sheet, Source, assemble};
 use super::bare::Bare;
 use super::exact::Exact;
 use super::follow::{Follow, split_to};
-use super::imprint::{imprinted, loose_length};
+use super::imprint::{Beside, imprinted};
+use super::looks::mean_thickness;
 use super::middle::Middles;
 use super::offset::read_off;
 use super::remesh::Remesh;
@@ -160,18 +161,25 @@ impl Trials<'_> {
                 (best, bare) = (trial, left);
             }
         }
-        let imprinted =
-            imprinted(&best.sheet, &best.caster, self.walls.max_thickness).map(|sheet| self.made(sheet));
-        if let Some(trial) = imprinted {
-            let loose = |made: &Made| loose_length(&made.sheet, &made.caster, self.walls.max_thickness);
+        let gone = if with_features { &with_all } else { gone };
+        if let Some(sheet) = imprinted(&best.sheet, &self.beside(&best), self.options.edge_length) {
+            let trial = self.made(sheet);
+            let loose = |made: &Made| self.beside(made).loose_length(&made.sheet);
+            let left = self.bare(&trial, gone);
             if trial.faults() <= best.faults()
                 && trial.torn <= best.torn
+                && left.area() <= bare.area()
                 && loose(&trial) < LOOSE * loose(&best)
             {
-                best = trial;
+                (best, bare) = (trial, left);
             }
         }
         Ok(Chosen { made: best, with_features, bare })
+    }
+
+    fn beside<'b>(&'b self, made: &'b Made) -> Beside<'b> {
+        let thickness = mean_thickness(&self.walls.pairs).unwrap_or(self.walls.max_thickness);
+        Beside { sheet: &made.caster, skin: &self.solid.caster, thickness }
     }
 
     /// What of the walls has no mid-surface, but for what is to be removed.

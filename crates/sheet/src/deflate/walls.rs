@@ -194,29 +194,25 @@ impl Walls {
         }
     }
 
-    /// Looks from every so-manyth face of all walls into the material.
+    /// Looks from a face into the material.
     pub(super) fn looks<'a>(
         &'a self,
         solid: &'a Solid,
         segments: &'a Segments,
-        every: usize,
-    ) -> impl ParallelIterator<Item = Through> + 'a {
-        let is_wall = move |f: u32| self.is_wall[segments.of(f) as usize];
-        let of_face = move |f: u32| {
-            let casts = &self.casts[self.firsts[f as usize] as usize..];
-            let casts = casts.iter().take_while(move |cast| cast.face == f);
-            let rows = casts.clone().count().isqrt() as u32;
-            let through = move |(from, cast): (DVec3, &Cast)| {
-                let hit = cast.hit.filter(|hit| hit.distance <= self.max_thickness);
-                let faces =
-                    |hit: &Opposite| is_wall(hit.face) && self.faces_back(solid, segments, f, hit.face);
-                let thickness = hit.filter(faces).map(|hit| hit.distance);
-                Through { face: f, from, thickness, is_thick: hit.is_none(), area: cast.area }
+        f: u32,
+    ) -> impl Iterator<Item = Through> + 'a {
+        let casts = &self.casts[self.firsts[f as usize] as usize..];
+        let casts = casts.iter().take_while(move |cast| cast.face == f);
+        let rows = casts.clone().count().isqrt() as u32;
+        let through = move |(from, cast): (DVec3, &Cast)| {
+            let hit = cast.hit.filter(|hit| hit.distance <= self.max_thickness);
+            let faces = |hit: &Opposite| {
+                self.is_wall[segments.of(hit.face) as usize] && self.faces_back(solid, segments, f, hit.face)
             };
-            spread(solid.mesh.corners(f), rows).zip(casts).map(through)
+            let thickness = hit.filter(faces).map(|hit| hit.distance);
+            Through { face: f, from, thickness, is_thick: hit.is_none(), area: cast.area }
         };
-        let faces = (0..solid.len()).into_par_iter().step_by(every).filter(move |f| is_wall(*f));
-        faces.flat_map_iter(of_face)
+        spread(solid.mesh.corners(f), rows).zip(casts).map(through)
     }
 
     /// Whether a face that is seen from another one through the material faces it.

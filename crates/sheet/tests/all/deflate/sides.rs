@@ -105,3 +105,37 @@ fn fins_on_both_sides_of_a_tube_are_joined_to_it() {
         near(thin.report.area, area, 5e-3);
     }
 }
+
+/// A shelf that ends half a millimetre before a wall is not joined to it, however thick the shelf is; nor does a low lip go for the plate that it
+/// stands on.
+#[test]
+fn what_does_not_touch_is_not_joined() {
+    let shelf = |gap: f64| {
+        let plate = block([0.0, 0.0, 0.0], [100.0, 60.0, 1.6]);
+        let wall = block([0.0, 0.0, 0.0], [1.6, 60.0, 40.0]);
+        let post = block([98.0, 0.0, 0.0], [100.0, 60.0, 40.0]);
+        united(&[plate, wall, post, block([1.6 + gap, 0.0, 20.0], [99.0, 60.0, 24.0])])
+    };
+    for gap in [0.3, 0.5, 1.0] {
+        let thin = deflated(&shelf(gap));
+        has_topology(&thin, [5, 1, 2, 1]);
+        near(thin.report.area, 60.0 * (98.2 + 2.0 * 39.2 + 97.4 - gap), 1e-9);
+    }
+    let options = DeflateOptions { max_thickness: Some(12.0), ..DeflateOptions::default() };
+    let lip =
+        united(&[block([0.0, 0.0, 0.0], [80.0, 60.0, 2.0]), block([20.0, 0.0, 1.0], [22.0, 60.0, 5.0])]);
+    let thin = deflate(&lip, &options, &Nobody).unwrap();
+    assert_eq!(thin.report.joints, 1);
+}
+
+/// A half-round bead right across a plate: its ends are arcs, and the plate stays flat.
+#[test]
+fn a_bead_across_a_plate_leaves_it_flat() {
+    let mut profile = vec![[0.0, 0.0], [100.0, 0.0], [100.0, 2.0]];
+    let turn = |k: u32| std::f64::consts::PI * f64::from(k) / 12.0;
+    profile.extend((0..=12).map(|k| [50.0 + 4.0 * turn(k).cos(), 2.0 + 4.0 * turn(k).sin()]));
+    profile.push([0.0, 2.0]);
+    let thin = deflated(&prism(&profile, 60.0, 1));
+    has_topology(&thin, [1, 0, 1, 1]);
+    near(thin.report.area, 6000.0, 1e-9);
+}
