@@ -105,7 +105,7 @@ impl Bare {
         found
     }
 
-    /// Area in mm².
+    /// All of it, in mm².
     pub(super) fn area(&self) -> f64 {
         self.walls.iter().chain(&self.before_lumps).map(|wall| wall.1).sum()
     }

@@ -53,8 +53,7 @@ struct Loose {
     away: DVec3,
 }
 
-/// The sheet, whose faces stop the caster's rays, with its loose borders on the faces beside them; `None` if there are none, or if more than these would change.
-/// O(n log n).
+/// The sheet with its loose borders on the faces beside them; `None` if there are none, or if more than these would change. O(n log n).
 pub(super) fn imprinted(sheet: &Sheet, beside: &Beside, edge_length: Option<f64>) -> Option<Sheet> {
     let reach = BESIDE * beside.thickness;
     let short = edge_length.map_or(SHORT_ANYWAY * beside.thickness, |length| SHORT * length);
