@@ -1,7 +1,7 @@
 //! The report of a deflated solid.
 
 use serde::Serialize;
-use sheet::deflate::{Deflated, Feature, NamedFace, SkinFace, ThicknessRange, WallPair};
+use sheet::deflate::{Deflated, Feature, LooseEnds, NamedFace, SkinFace, ThicknessRange, WallPair};
 
 /// What `toile deflate` reports; lengths in millimetres, whatever the file's unit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -52,6 +52,8 @@ pub struct DeflateFileReport {
     pub unpaired: Vec<NamedFace>,
     /// Walls that came to have no mid-surface.
     pub bare: Vec<NamedFace>,
+    /// Borders that end inside the material.
+    pub loose_ends: Option<LooseEnds>,
     /// Faces of the solid's skin with their geometry.
     pub skin: Vec<SkinFace>,
     /// Pairs of these that are as far from each other everywhere, and what lies halfway.
@@ -92,6 +94,7 @@ impl DeflateFileReport {
             volume_ratio: volume_ratio(deflated),
             unpaired: report.unpaired.clone(),
             bare: report.bare.clone(),
+            loose_ends: report.loose_ends,
             skin: report.faces.clone(),
             walls: report.wall_pairs.clone(),
         }
@@ -120,6 +123,12 @@ fn warnings(deflated: &Deflated) -> Vec<String> {
     );
     if report.bare.len() > NAMED {
         warnings.push(format!("{} more walls have no mid-surface", report.bare.len() - NAMED));
+    }
+    if let Some(LooseEnds { length, at }) = report.loose_ends {
+        warnings.push(format!(
+            "borders of {length:.1} mm end inside the material, as at ({:.2}, {:.2}, {:.2}): walls are not joined there",
+            at.x, at.y, at.z
+        ));
     }
     if report.steps > 0 {
         warnings.push(format!(

@@ -6,11 +6,12 @@ use std::collections::BTreeSet;
 use glam::DVec3;
 
 use super::DeflateOptions;
+use super::cells::Cells;
 use super::fill::{Outline, fill};
 use super::looks::mean_thickness;
 use super::middle::Middles;
 use super::nearness::Nearness;
-use super::plan::{Cells, Plan, PlanePiece, border, plan};
+use super::plan::{Plan, PlanePiece, border, plan};
 use super::plane::Plane;
 use super::seams::{Merged, Seams};
 use super::segments::Segments;
@@ -46,12 +47,22 @@ pub(super) struct Sheet {
     pub(super) faces: Vec<[u32; 3]>,
     /// Of every face.
     pub(super) sources: Vec<Source>,
-    /// The planes that were filled, and whether each is a step between two thicknesses.
-    pub(super) planes: Vec<(Plane, bool)>,
-    /// Groups of the solid in every filled plane.
-    pub(super) groups: Vec<Vec<u32>>,
+    /// By their numbers.
+    pub(super) planes: Vec<FilledPlane>,
     /// Edges of outlines that were lost.
     pub(super) lost: usize,
+}
+
+/// A plane that was filled from its outline.
+#[derive(Clone, Debug)]
+pub(super) struct FilledPlane {
+    pub(super) plane: Plane,
+    /// Whether it is a step between two thicknesses.
+    pub(super) is_step: bool,
+    /// Groups of the solid in it.
+    pub(super) groups: Vec<u32>,
+    /// How large its triangles may be.
+    pub(super) cells: Option<Cells>,
 }
 
 /// Where the solid's nodes go.
@@ -136,7 +147,7 @@ fn closed_edges(solid: &Solid, segments: &Segments, plan: &Plan, moved: &[DVec3]
 
 /// How large the triangles of a piece may be. A length that was asked for is one in all directions.
 fn cells(piece: Option<&PlanePiece>, options: &DeflateOptions) -> Option<Cells> {
-    let asked = options.edge_length.map(|length| Cells { length, along: None });
+    let asked = options.edge_length.map(Cells::even);
     piece.and_then(|piece| piece.cells).into_iter().chain(asked).reduce(Cells::both)
 }
 
@@ -192,8 +203,8 @@ fn add_planes(
         sheet.sources.extend(filled.faces.iter().map(|_| Source::Plane(number)));
         sheet.faces.extend(filled.faces);
         sheet.lost += filled.lost;
-        sheet.planes.push((piece.plane, piece.is_step));
-        sheet.groups.push(piece.groups.iter().map(|g| g.0).collect());
+        let groups = piece.groups.iter().map(|g| g.0).collect();
+        sheet.planes.push(FilledPlane { plane: piece.plane, is_step: piece.is_step, groups, cells });
     }
 }
 

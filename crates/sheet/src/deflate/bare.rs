@@ -69,7 +69,8 @@ impl Bare {
             let looked_at: Vec<u32> = small.iter().copied().step_by(every).collect();
             let area = |faces: &[u32]| faces.iter().map(|f| solid.areas[*f as usize]).sum::<f64>();
             // Some of the small ones stand for all.
-            let share = area(&small) / area(&looked_at).max(f64::MIN_POSITIVE);
+            let sampled = area(&looked_at);
+            let share = if sampled > 0.0 { area(&small) / sampled } else { 1.0 };
             let faces = large.iter().map(|f| (*f, 1.0)).chain(looked_at.iter().map(|f| (*f, share)));
             let [mut seen, mut unseen, mut before_lump] = [0.0; 3];
             for (f, share) in faces {

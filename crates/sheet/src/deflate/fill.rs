@@ -10,7 +10,7 @@ use spade::{
     AngleLimit, ConstrainedDelaunayTriangulation, HasPosition, Point2, RefinementParameters, Triangulation,
 };
 
-use super::plan::{Cells, LONG};
+use super::cells::Cells;
 use super::plane::Plane;
 
 /// A node of the triangulation; nodes that refinement adds have no number yet.
@@ -60,9 +60,12 @@ type Cdt = ConstrainedDelaunayTriangulation<Corner>;
 /// of the outline stay as they are. O(n log n).
 pub(super) fn fill(outline: &Outline, positions: &[DVec3], cells: Option<Cells>) -> Filled {
     // Drawn so much narrower that cells are as long as wide.
-    let along = cells.and_then(|cells| cells.along?.reject_from(outline.plane.normal).try_normalize());
-    let ([x, y], long) = match along {
-        Some(along) => ([along, outline.plane.normal.cross(along)], LONG),
+    let strips = cells.and_then(|cells| {
+        let strips = cells.strips?;
+        Some((strips.across.reject_from(outline.plane.normal).try_normalize()?, strips.long))
+    });
+    let ([x, y], long) = match strips {
+        Some((across, long)) => ([across, outline.plane.normal.cross(across)], long),
         None => (outline.plane.frame(), 1.0),
     };
     let origin = outline.edges.first().map_or(DVec3::ZERO, |e| positions[e[0] as usize]);

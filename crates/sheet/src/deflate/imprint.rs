@@ -7,201 +7,196 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 use mesh_kernel::TriMesh;
-use mesh_kernel::merge::{MergeOptions, merge};
-use mesh_kernel::query::RayCaster;
-use rayon::prelude::*;
+use mesh_kernel::merge::{self, MergeOptions, merge};
+use mesh_kernel::query::Adjacency;
 
 use super::assemble::{Sheet, Source};
+use super::loose::{Beside, Loose};
+use super::places::Places;
 use super::seams::Merged;
+use super::short::close_short;
 
-/// How far beside a border the face may be that it should be on, over the thickness of walls.
-const BESIDE: f64 = 0.35;
-/// Borders are drawn out by so many times this.
+/// Borders are drawn out by so many times the way that they look for a face.
 const DRAWN_OUT: f64 = 2.0;
 /// What is farther out than so many times this is cut off.
 const BEYOND: f64 = 1.5;
-/// Looks along a face begin this share of the way beside it, and no farther back than this share of the face; those for the skin begin this
-/// share of the way back.
-const ASIDE: f64 = 1e-3;
-const WITHIN: f64 = 0.5;
-const ASIDE_SKIN: f64 = 0.02;
-/// Borders end on faces that they run into at a sine of more than this.
-const STEEP: f64 = 0.5;
 /// What sticks out is less than this share of what borders were drawn out.
 const STICKS_OUT: f64 = 0.75;
 /// Edges that cutting left and that are shorter than this share of the wanted length close; without one, than this share of the thickness.
 const SHORT: f64 = 0.4;
 const SHORT_ANYWAY: f64 = 0.15;
-/// Rounds of closing.
-const ROUNDS: usize = 12;
-/// Faces do not turn by more than the angle of this cosine when an edge closes, and those flatter than this, over their longest side, have no
-/// direction to turn from.
-const TURNED: f64 = 0.9;
-const FLAT: f64 = 0.02;
-/// Joints are straight up to the angle of this cosine.
-const STRAIGHT: f64 = 0.97;
+/// Ends that stick out too far are left as they are in so many rounds.
+const ROUNDS: usize = 4;
 /// What was in one place before is so to this share of the way after.
 const SAME: f64 = 1e-6;
 
-/// A free edge that ends beside a face.
-#[derive(Clone, Copy, Debug)]
-struct Loose {
-    /// As its face goes along it.
-    ends: [u32; 2],
-    face: u32,
-    /// In the face, away from it.
-    away: DVec3,
+/// A sheet whose loose borders are joined to the faces beside them.
+pub(super) struct Imprinted {
+    pub(super) sheet: Sheet,
+    /// How long the borders are that were, in mm.
+    pub(super) length: f64,
 }
 
-/// The sheet with its loose borders on the faces beside them; `None` if there are none, or if more than these would change. O(n log n).
-pub(super) fn imprinted(sheet: &Sheet, beside: &Beside, edge_length: Option<f64>) -> Option<Sheet> {
-    let reach = BESIDE * beside.thickness;
-    let short = edge_length.map_or(SHORT_ANYWAY * beside.thickness, |length| SHORT * length);
+/// The sheet with its loose borders on the faces beside them; `None` if there are none, or if more than these would change. Those that would
+/// stick out on the other side stay as they are. O(n log n).
+pub(super) fn imprinted(sheet: &Sheet, beside: &Beside, edge_length: Option<f64>) -> Option<Imprinted> {
     let mesh = TriMesh::new(sheet.positions.clone(), sheet.faces.clone());
-    let uses = Uses::new(&sheet.faces);
-    let loose = beside.loose_edges(&mesh, &uses);
-    if loose.is_empty() {
-        return None;
-    }
-    let (mesh, flaps) = with_flaps(mesh, &uses, &loose, DRAWN_OUT * reach);
-    let old = sheet.faces.len() as u32;
-    let merged = merge(&[&mesh], &MergeOptions::default()).ok()?;
-    // Nothing else may have been cut.
-    let segments: Vec<[DVec3; 2]> =
-        loose.iter().map(|l| l.ends.map(|v| mesh.positions[v as usize])).collect();
-    let known = Places::new(&mesh.positions, SAME * reach);
-    let near = Places::along(&segments, DRAWN_OUT * reach);
-    if !merged.positions.iter().all(|p| known.has(*p) || near.has(*p)) {
-        return None;
-    }
-    let parent = |f: u32| merged.parents(f).first().map(|parent| (parent.face, parent.reversed));
-    // Pieces between joints; those that reach the far ends of flaps are cut off.
-    let uses = Uses::new(&merged.faces);
-    let mut pieces = Merged::new(merged.faces.len());
-    for edge in uses.edges() {
-        if let [(_, f), (_, g)] = *edge {
-            pieces.join(f, g);
+    let adjacency = Adjacency::new(&mesh);
+    let mut loose = beside.loose_edges(&mesh, &adjacency, &sheet.sources);
+    for _ in 0..ROUNDS {
+        if loose.is_empty() {
+            return None;
         }
-    }
-    let mut cut_off = BTreeSet::new();
-    for edge in uses.edges() {
-        let [([a, b], f)] = *edge else { continue };
-        let Some(flap) = parent(f).and_then(|(f, _)| flaps.get(f.checked_sub(old)? as usize)) else {
-            continue;
-        };
-        let out =
-            |v: u32| (merged.positions[v as usize] - mesh.positions[flap.ends[0] as usize]).dot(flap.away);
-        if out(a).max(out(b)) > BEYOND * reach {
-            cut_off.insert(pieces.find(f));
+        let cut = Cut::new(&mesh, &adjacency, &loose, beside.reach())?;
+        let sticking_out = cut.sticking_out();
+        if sticking_out.is_empty() {
+            let made = cut.sheet(sheet);
+            let ends = loose.iter().map(|l| l.ends.map(|v| sheet.positions[v as usize]));
+            let segments: Vec<[DVec3; 2]> = ends.collect();
+            let short = edge_length.map_or(SHORT_ANYWAY * beside.thickness, |length| SHORT * length);
+            let sheet = tidied(made, &cut.planes(sheet), short, &Places::along(&segments, short / SHORT));
+            return Some(Imprinted { sheet, length: segments.iter().map(|[p, q]| p.distance(*q)).sum() });
         }
+        let mut chains = Merged::new(mesh.positions.len());
+        loose.iter().for_each(|l| chains.join(l.ends[0], l.ends[1]));
+        let bad: BTreeSet<u32> = sticking_out.into_iter().map(|k| chains.find(loose[k].ends[0])).collect();
+        loose.retain(|l| !bad.contains(&chains.find(l.ends[0])));
     }
-    let mut made = Sheet { positions: merged.positions.clone(), ..sheet.clone() };
-    made.faces.clear();
-    made.sources.clear();
-    let (mut lost, mut lost_flaps) = (0.0, 0.0);
-    for (f, &face) in (0u32..).zip(&merged.faces) {
-        let (of, reversed) = parent(f)?;
-        let flap = of.checked_sub(old).and_then(|k| flaps.get(k as usize));
-        if cut_off.contains(&pieces.find(f)) {
-            let [a, b, c] = face.map(|v| merged.positions[v as usize]);
-            let area = (b - a).cross(c - a).length();
-            *(if flap.is_some() { &mut lost_flaps } else { &mut lost }) += area;
-            continue;
-        }
-        made.faces.push(if reversed { [face[0], face[2], face[1]] } else { face });
-        made.sources.push(sheet.sources[flap.map_or(of, |flap| flap.face) as usize]);
-    }
-    // Only ends stick out.
-    if lost > STICKS_OUT * lost_flaps {
-        return None;
-    }
-    close_short(&mut made, short, &Places::along(&segments, short / SHORT));
-    Some(made.without_unused_nodes())
+    None
 }
 
-/// The edges with their faces, in order.
-struct Uses(Vec<([u32; 2], u32)>);
-
-impl Uses {
-    /// O(n log n).
-    fn new(faces: &[[u32; 3]]) -> Self {
-        let of_face = |f: u32| {
-            let [a, b, c] = faces[f as usize];
-            [[a, b], [b, c], [c, a]].map(|[p, q]| ([p.min(q), p.max(q)], f))
-        };
-        let mut uses: Vec<([u32; 2], u32)> = (0..faces.len() as u32).flat_map(of_face).collect();
-        uses.par_sort_unstable();
-        Self(uses)
-    }
-
-    /// The faces of every edge, one edge after the other.
-    fn edges(&self) -> impl Iterator<Item = &[([u32; 2], u32)]> {
-        self.0.chunk_by(|a, b| a.0 == b.0)
-    }
+/// Without the slivers and short edges that cutting left.
+fn tidied(mut sheet: Sheet, planes: &BTreeSet<u32>, short: f64, near: &Places) -> Sheet {
+    sheet.refill(planes);
+    close_short(&mut sheet, short, near);
+    sheet.refill(planes);
+    sheet.without_unused_nodes()
 }
 
-/// What tells whether borders end beside faces.
-pub(super) struct Beside<'a> {
-    /// Rays that the faces of the sheet stop.
-    pub(super) sheet: &'a RayCaster,
-    /// And those of the solid's skin.
-    pub(super) skin: &'a RayCaster,
-    /// How thick walls are, in mm.
-    pub(super) thickness: f64,
+/// A sheet with its loose borders drawn out, cut where this meets something.
+struct Cut<'a> {
+    loose: &'a [Loose],
+    merged: merge::Merged,
+    /// Faces of the sheet; those that follow are flaps.
+    old: usize,
+    /// For every flap, of which loose edge it is.
+    flaps: Vec<usize>,
+    /// For every face, which piece it is of: pieces end at joints.
+    piece: Vec<u32>,
+    /// Pieces that reach the far ends of flaps.
+    outer: BTreeSet<u32>,
 }
 
-impl Beside<'_> {
-    /// How long the borders are that end beside a face, in mm. O(n log n).
-    pub(super) fn loose_length(&self, sheet: &Sheet) -> f64 {
-        let mesh = TriMesh::new(sheet.positions.clone(), sheet.faces.clone());
-        let loose = self.loose_edges(&mesh, &Uses::new(&sheet.faces));
-        let length = |l: &Loose| {
-            let [p, q] = l.ends.map(|v| mesh.positions[v as usize]);
-            p.distance(q)
-        };
-        loose.iter().map(length).sum()
-    }
-
-    /// Free edges from the middles of which another face is met within some way through the material, on or off the own one.
-    fn loose_edges(&self, mesh: &TriMesh, uses: &Uses) -> Vec<Loose> {
-        let reach = BESIDE * self.thickness;
-        let mut loose = Vec::new();
-        for edge in uses.edges() {
-            let [([a, b], face)] = *edge else { continue };
-            let nodes = mesh.faces[face as usize];
-            let forward = (0..3).any(|k| [nodes[k], nodes[(k + 1) % 3]] == [a, b]);
-            let ends = if forward { [a, b] } else { [b, a] };
-            let [p, q] = ends.map(|v| mesh.positions[v as usize]);
-            let across = mesh.area_normal(face);
-            let Some(normal) = across.try_normalize() else { continue };
-            let Some(away) = (q - p).cross(normal).try_normalize() else { continue };
-            // Not from behind the face: a low web stands on what is there.
-            let back = reach.min(WITHIN * across.length() / p.distance(q));
-            let middle = p.midpoint(q);
-            let from = middle - away * back + normal * (ASIDE * reach);
-            let Some(hit) = self.sheet.first(from, away, 0.0, back + reach) else { continue };
-            let common = mesh.faces[hit.face as usize].iter().filter(|v| nodes.contains(v)).count();
-            // What is as good as parallel is a wall beside it, not one that it ends on; nor is one beyond a gap.
-            let other = mesh.area_normal(hit.face).normalize_or_zero();
-            let start = back.min(ASIDE_SKIN * reach);
-            let to = hit.distance - back;
-            let inside = |from: f64, to: f64| {
-                self.skin
-                    .first(middle + away * from, away * (to - from).signum(), 0.0, (to - from).abs())
-                    .is_none()
-            };
-            if common < 2 && other.dot(away).abs() > STEEP && inside(-start, to) {
-                loose.push(Loose { ends, face, away });
+impl<'a> Cut<'a> {
+    /// `None` if more is cut than what is beside the borders.
+    fn new(mesh: &TriMesh, adjacency: &Adjacency, loose: &'a [Loose], reach: f64) -> Option<Self> {
+        let old = mesh.faces.len();
+        let (drawn_out, flaps) = with_flaps(mesh.clone(), adjacency, loose, DRAWN_OUT * reach);
+        let merged = merge(&[&drawn_out], &MergeOptions::default()).ok()?;
+        let at = |v: u32| drawn_out.positions[v as usize];
+        let segments: Vec<[DVec3; 2]> = loose.iter().map(|l| l.ends.map(at)).collect();
+        let known = Places::new(drawn_out.positions.iter().copied(), SAME * reach);
+        let near = Places::along(&segments, DRAWN_OUT * reach);
+        if !merged.positions.iter().all(|p| known.has(*p) || near.has(*p)) {
+            return None;
+        }
+        let adjacency = Adjacency::new(&TriMesh::new(merged.positions.clone(), merged.faces.clone()));
+        let edges = (0..adjacency.edges().len() as u32).map(|e| adjacency.half_edges(e));
+        let mut pieces = Merged::new(merged.faces.len());
+        for half_edges in edges.clone() {
+            if let [g, h] = half_edges {
+                pieces.join(g / 3, h / 3);
             }
         }
-        loose
+        let piece: Vec<u32> = (0..merged.faces.len() as u32).map(|f| pieces.find(f)).collect();
+        let mut cut = Self { loose, merged, old, flaps, piece, outer: BTreeSet::new() };
+        for half_edges in edges {
+            let [h] = *half_edges else { continue };
+            let Some(edge) = cut.loose_edge_of(h / 3) else { continue };
+            let Loose { ends, away, .. } = cut.loose[edge];
+            let out = |v: u32| (cut.merged.positions[v as usize] - at(ends[0])).dot(away);
+            let farthest = adjacency.ends(h).map(out).into_iter().fold(0.0, f64::max);
+            if farthest > BEYOND * reach {
+                cut.outer.insert(cut.piece[h as usize / 3]);
+            }
+        }
+        Some(cut)
+    }
+
+    /// The face of the sheet, or the flap behind them, that one of the parts came from, and whether it was turned over.
+    fn parent(&self, f: u32) -> Option<(usize, bool)> {
+        self.merged.parents(f).first().map(|parent| (parent.face as usize, parent.reversed))
+    }
+
+    /// The loose edge whose flap a part is of.
+    fn loose_edge_of(&self, f: u32) -> Option<usize> {
+        self.flaps.get(self.parent(f)?.0.checked_sub(self.old)?).copied()
+    }
+
+    /// The loose edges with outer pieces that are more than what was drawn out: only ends stick out.
+    fn sticking_out(&self) -> BTreeSet<usize> {
+        // Of every outer piece, the areas of faces and of flaps, and whose these are.
+        let mut of_piece: BTreeMap<u32, ([f64; 2], BTreeSet<usize>)> = BTreeMap::new();
+        for (f, face) in (0u32..).zip(&self.merged.faces) {
+            let piece = self.piece[f as usize];
+            if !self.outer.contains(&piece) {
+                continue;
+            }
+            let (areas, edges) = of_piece.entry(piece).or_default();
+            let [a, b, c] = face.map(|v| self.merged.positions[v as usize]);
+            let edge = self.loose_edge_of(f);
+            areas[usize::from(edge.is_some())] += (b - a).cross(c - a).length();
+            edges.extend(edge);
+        }
+        let bad = of_piece.into_values().filter(|([lost, drawn_out], _)| *lost > STICKS_OUT * drawn_out);
+        bad.flat_map(|(_, edges)| edges).collect()
+    }
+
+    /// The sheet without what sticks out.
+    fn sheet(&self, sheet: &Sheet) -> Sheet {
+        let (faces, sources) = (Vec::new(), Vec::new());
+        let mut made = Sheet { positions: self.merged.positions.clone(), faces, sources, ..sheet.clone() };
+        for (f, &face) in (0u32..).zip(&self.merged.faces) {
+            let Some((of, reversed)) =
+                self.parent(f).filter(|_| !self.outer.contains(&self.piece[f as usize]))
+            else {
+                continue;
+            };
+            let of = self.loose_edge_of(f).map_or(of, |edge| self.loose[edge].face as usize);
+            made.faces.push(if reversed { [face[0], face[2], face[1]] } else { face });
+            made.sources.push(sheet.sources[of]);
+        }
+        made
+    }
+
+    /// The planes with faces that were cut or drawn out.
+    fn planes(&self, sheet: &Sheet) -> BTreeSet<u32> {
+        let mut parts = vec![0u32; self.old];
+        self.flaps.iter().for_each(|edge| parts[self.loose[*edge].face as usize] += 1);
+        for f in 0..self.merged.faces.len() as u32 {
+            if let Some(parts) = self.parent(f).and_then(|(of, _)| parts.get_mut(of)) {
+                *parts += 1;
+            }
+        }
+        let number = |(parts, source): (&u32, &Source)| match source {
+            Source::Plane(k) if *parts > 1 => Some(*k),
+            _ => None,
+        };
+        parts.iter().zip(&sheet.sources).filter_map(number).collect()
     }
 }
 
-/// The mesh with a strip along every loose edge; strips run out where borders end on something else.
-fn with_flaps(mut mesh: TriMesh, uses: &Uses, loose: &[Loose], width: f64) -> (TriMesh, Vec<Loose>) {
-    let joints = uses.edges().filter(|edge| edge.len() > 2);
-    let joined: BTreeSet<u32> = joints.flat_map(|edge| edge[0].0).collect();
+/// The mesh with a strip along every loose edge, and of which of these each face of them is; strips run out where borders end on something
+/// else.
+fn with_flaps(
+    mut mesh: TriMesh,
+    adjacency: &Adjacency,
+    loose: &[Loose],
+    width: f64,
+) -> (TriMesh, Vec<usize>) {
+    let edges = (0u32..).zip(adjacency.edges());
+    let joints = edges.filter(|(e, _)| adjacency.half_edges(*e).len() > 2);
+    let joined: BTreeSet<u32> = joints.flat_map(|(_, ends)| *ends).collect();
     let mut away: BTreeMap<u32, DVec3> = BTreeMap::new();
     for edge in loose {
         edge.ends.iter().for_each(|v| *away.entry(*v).or_default() += edge.away);
@@ -214,7 +209,7 @@ fn with_flaps(mut mesh: TriMesh, uses: &Uses, loose: &[Loose], width: f64) -> (T
         }
     }
     let mut flaps = Vec::new();
-    for edge in loose {
+    for (k, edge) in loose.iter().enumerate() {
         let [a, b] = edge.ends;
         let faces = match (outer.get(&a), outer.get(&b)) {
             (Some(&p), Some(&q)) => vec![[b, a, p], [b, p, q]],
@@ -222,142 +217,8 @@ fn with_flaps(mut mesh: TriMesh, uses: &Uses, loose: &[Loose], width: f64) -> (T
             (None, Some(&q)) => vec![[b, a, q]],
             (None, None) => continue,
         };
-        flaps.extend(faces.iter().map(|_| *edge));
+        flaps.extend(faces.iter().map(|_| k));
         mesh.faces.extend(faces);
     }
     (mesh, flaps)
-}
-
-/// Closes short edges between some places, as long as nothing changes by it: inside of pieces, and along joints and borders that go straight on.
-fn close_short(sheet: &mut Sheet, short: f64, places: &Places) {
-    for _ in 0..ROUNDS {
-        let near: Vec<bool> = sheet.positions.iter().map(|p| places.has(*p)).collect();
-        let uses = Uses::new(&sheet.faces);
-        // Plane pieces stay in their planes.
-        let is_crease = |edge: &[([u32; 2], u32)]| {
-            let of = edge.iter().map(|(_, f)| sheet.sources[*f as usize]);
-            of.clone().any(|s| matches!(s, Source::Plane(_)))
-                && of.clone().any(|s| Some(s) != of.clone().next())
-        };
-        // Beyond which nodes, and how many faces there are at the edge to them.
-        let mut lines: BTreeMap<u32, Vec<(u32, usize)>> = BTreeMap::new();
-        let mut about: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
-        let mut edges: Vec<(f64, [u32; 2])> = Vec::new();
-        for edge in uses.edges() {
-            let [a, b] = edge[0].0;
-            for [v, w] in [[a, b], [b, a]] {
-                if near[v as usize] {
-                    about.entry(v).or_default().insert(w);
-                    if edge.len() != 2 || is_crease(edge) {
-                        lines.entry(v).or_default().push((w, edge.len()));
-                    }
-                }
-            }
-            let length = sheet.positions[a as usize].distance(sheet.positions[b as usize]);
-            if near[a as usize] && near[b as usize] && length < short {
-                edges.push((length, [a, b]));
-            }
-        }
-        let mut star: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-        for (f, face) in (0u32..).zip(&sheet.faces) {
-            face.iter().filter(|v| near[**v as usize]).for_each(|v| star.entry(*v).or_default().push(f));
-        }
-        edges.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let mut touched: BTreeSet<u32> = BTreeSet::new();
-        let mut closed: BTreeMap<u32, u32> = BTreeMap::new();
-        for (_, [a, b]) in edges {
-            for [gone, stays] in [[a, b], [b, a]] {
-                let free = about[&gone].iter().chain(&about[&stays]).all(|v| !touched.contains(v));
-                let on_line = lines.get(&gone).map(Vec::as_slice).unwrap_or_default();
-                if free
-                    && goes_on(sheet, on_line, gone, stays)
-                    && keeps_shape(sheet, &star[&gone], &about, gone, stays)
-                {
-                    touched.extend(about[&gone].iter().chain(&about[&stays]));
-                    closed.insert(gone, stays);
-                    break;
-                }
-            }
-        }
-        if closed.is_empty() {
-            return;
-        }
-        let (faces, sources) = (std::mem::take(&mut sheet.faces), std::mem::take(&mut sheet.sources));
-        for (face, source) in faces.into_iter().zip(sources) {
-            let face = face.map(|v| closed.get(&v).copied().unwrap_or(v));
-            if face[0] != face[1] && face[1] != face[2] && face[2] != face[0] {
-                sheet.faces.push(face);
-                sheet.sources.push(source);
-            }
-        }
-    }
-}
-
-/// Whether a node is inside of a piece, or on a joint or border that goes straight on from another node over it.
-fn goes_on(sheet: &Sheet, lines: &[(u32, usize)], gone: u32, stays: u32) -> bool {
-    let at = |v: u32| sheet.positions[v as usize];
-    match *lines {
-        [] => true,
-        [(v, m), (w, n)] => {
-            let turn = (at(gone) - at(v)).normalize_or_zero().dot((at(w) - at(gone)).normalize_or_zero());
-            m == n && (v == stays || w == stays) && turn > STRAIGHT
-        }
-        _ => false,
-    }
-}
-
-/// Whether the faces about a node turn hardly when it goes to another, and no two become one.
-fn keeps_shape(
-    sheet: &Sheet,
-    star: &[u32],
-    about: &BTreeMap<u32, BTreeSet<u32>>,
-    gone: u32,
-    stays: u32,
-) -> bool {
-    let faces = || star.iter().map(|f| sheet.faces[*f as usize]);
-    let opposite: BTreeSet<u32> =
-        faces().filter(|f| f.contains(&stays)).flatten().filter(|v| *v != gone && *v != stays).collect();
-    let common: BTreeSet<u32> = about[&gone].intersection(&about[&stays]).copied().collect();
-    common == opposite
-        && faces().filter(|f| !f.contains(&stays)).all(|face| {
-            let area = |face: [u32; 3]| {
-                let [a, b, c] = face.map(|v| sheet.positions[v as usize]);
-                let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-                let area = (b - a).cross(c - a);
-                (area.normalize_or_zero(), area.length() / (longest * longest).max(f64::MIN_POSITIVE))
-            };
-            let (was, is) = (area(face), area(face.map(|v| if v == gone { stays } else { v })));
-            was.0.dot(is.0) > TURNED && is.1 > FLAT.min(was.1) || was.1 < FLAT && is.1 > was.1
-        })
-}
-
-/// Places, to be found from near by.
-struct Places {
-    cells: BTreeSet<[i64; 3]>,
-    size: f64,
-}
-
-impl Places {
-    fn new(positions: &[DVec3], size: f64) -> Self {
-        let cell = |p: &DVec3| (*p / size).round().to_array().map(|x| x as i64);
-        Self { cells: positions.iter().map(cell).collect(), size }
-    }
-
-    /// All along some segments.
-    fn along(segments: &[[DVec3; 2]], size: f64) -> Self {
-        let points = |[a, b]: &[DVec3; 2]| {
-            let count = (a.distance(*b) / size).ceil().max(1.0);
-            let (a, b) = (*a, *b);
-            (0..=count as u32).map(move |k| a.lerp(b, f64::from(k) / count))
-        };
-        Self::new(&segments.iter().flat_map(points).collect::<Vec<_>>(), size)
-    }
-
-    /// Whether one is nearer than the size, or not much farther.
-    fn has(&self, p: DVec3) -> bool {
-        let [x, y, z] = (p / self.size).round().to_array().map(|x| x as i64);
-        let near = [-1, 0, 1];
-        near.iter()
-            .any(|i| near.iter().any(|j| near.iter().any(|k| self.cells.contains(&[x + i, y + j, z + k]))))
-    }
 }

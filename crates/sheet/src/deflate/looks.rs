@@ -13,6 +13,8 @@ const THICKNESS_GAP: f64 = 2.5;
 /// Where this share of all is thinner, a smaller factor is enough: the rest is lumps and heights of ribs.
 const NEARLY_ALL: f64 = 0.9;
 const SMALL_GAP: f64 = 1.6;
+/// Thicknesses are known to this share of them: walls are often just so many times as thick as others.
+const ROUNDING: f64 = 1e-5;
 /// What is broad tells the thickness if it has more than this share of what looks at something.
 const BROAD: f64 = 0.4;
 /// A thickness told from the solid is no more than this share of how far its walls reach.
@@ -167,7 +169,7 @@ fn told_thickness(seen: &[(f64, f64)], area: f64) -> f64 {
     let (mut sum, mut largest) = (0.0, 0.0);
     for (thickness, part) in seen {
         let gap = if sum >= NEARLY_ALL * all { SMALL_GAP } else { THICKNESS_GAP };
-        if sum >= 0.4 * all && *thickness > gap * largest {
+        if sum >= 0.4 * all && *thickness > gap * (1.0 + ROUNDING) * largest {
             break;
         }
         largest = *thickness;

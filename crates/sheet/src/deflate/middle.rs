@@ -7,6 +7,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::faces::{Face, Faces};
+use super::looks::Pair;
 use super::plane::{Plane, PlaneTable};
 use super::segments::Segments;
 use super::solid::Solid;
@@ -69,13 +70,18 @@ impl Middles {
     /// Finds the mid-planes. O(groups · planes).
     pub(super) fn new(solid: &Solid, segments: &Segments, walls: &Walls) -> Self {
         let centre = solid.mesh.bounds().map_or(DVec3::ZERO, |[lo, hi]| (lo + hi) / 2.0);
-        let (mut planes, mut mid_planes) =
-            (PlaneTable::new(solid.size, centre), PlaneTable::new(solid.size, centre));
+        let mut planes = PlaneTable::new(solid.size, 0.0, centre);
+        let mut mid_planes = PlaneTable::new(solid.size, solid.rounding, centre);
         let plane_of: Vec<Option<u32>> =
             segments.groups.iter().map(|g| g.plane.map(|p| planes.number(p))).collect();
         let mut between = Vec::new();
         let mut of_group: Vec<Vec<Plane>> = vec![Vec::new(); segments.groups.len()];
-        for pair in &walls.pairs {
+        // Of planes that are one, that of the largest pair stands for all.
+        let mut order: Vec<&Pair> = walls.pairs.iter().collect();
+        order.sort_by(|a, b| {
+            b.area.total_cmp(&a.area).then_with(|| (a.group, a.partner).cmp(&(b.group, b.partner)))
+        });
+        for pair in order {
             let of = |g: u32| plane_of[g as usize].map(|k| planes.plane(k));
             let [Some(p), Some(q)] = [of(pair.group), of(pair.partner)] else { continue };
             // From a small wall there is a surer look at a large one than the other way round.
@@ -95,6 +101,7 @@ impl Middles {
                 own.push(plane);
             }
         }
+        between.sort_by_key(|between| between.0);
         // A plane wall whose partner is mostly curved follows that one.
         for (g, own) in (0u32..).zip(&mut of_group) {
             let partners = walls.partners(g);

@@ -3,6 +3,7 @@
 mod assemble;
 mod bare;
 mod blends;
+mod cells;
 mod closing;
 mod descent;
 mod eigen;
@@ -19,13 +20,16 @@ mod flush;
 mod follow;
 mod imprint;
 mod looks;
+mod loose;
 mod middle;
 mod nearness;
 mod offset;
 mod options;
 mod patches;
+mod places;
 mod plan;
 mod plane;
+mod refill;
 mod regions;
 mod remesh;
 mod replace;
@@ -33,6 +37,7 @@ mod report;
 mod seams;
 mod segments;
 mod shape;
+mod short;
 mod sides;
 mod slivers;
 mod solid;
@@ -48,7 +53,7 @@ mod walls;
 
 pub use error::DeflateError;
 pub use options::{DeflateOptions, Steps};
-pub use report::{DeflateReport, Feature, NamedFace, SkinFace, ThicknessRange, WallPair};
+pub use report::{DeflateReport, Feature, LooseEnds, NamedFace, SkinFace, ThicknessRange, WallPair};
 pub use shape::Shape;
 
 use mesh_kernel::TriMesh;
@@ -63,7 +68,7 @@ use middle::Middles;
 use patches::patched;
 use replace::{Replacement, Way};
 use segments::Segments;
-use sides::kept_groups;
+use sides::Sets;
 use solid::Solid;
 use star::Star;
 use straighten::straightened;
@@ -190,7 +195,8 @@ pub fn deflate(
     let mut features = Features::new(&solid, &segments, &walls, &blends, &faces, options);
     let mut middles = Middles::new(&solid, &segments, &walls);
     let flush = Flush::new(&solid, &segments, &walls);
-    let kept = kept_groups(&solid, &segments, &walls, &blends, &flush, &middles.of_group, false);
+    let mut sets = Sets::new(&solid, &segments, &walls, &blends);
+    let kept = sets.kept(&flush, &middles.of_group, false);
     for step in middles.steps(&solid, &segments, &walls, &kept) {
         let removed = features.add_step(&solid, &segments, &step, options);
         if removed || options.steps == Steps::Aligned {
@@ -214,12 +220,13 @@ pub fn deflate(
     };
     let meeting = replacement.moved(Way::Meeting);
     begin(Step::Stitch)?;
-    let others = kept_groups(&solid, &segments, &walls, &blends, &flush, &middles.of_group, true);
+    let others = sets.kept(&flush, &middles.of_group, true);
     let trials = Trials {
         solid: &solid,
         parts: solid.parts(),
         segments: &segments,
         walls: &walls,
+        set_of: sets.numbers(),
         middles: &middles,
         replacement: &replacement,
         exact: &exact,
@@ -227,7 +234,7 @@ pub fn deflate(
         options,
         watcher,
     };
-    let Chosen { made: Made { sheet, crossing, .. }, with_features, bare } =
+    let Chosen { made: Made { sheet, crossing, .. }, with_features, bare, buried } =
         trials.best(&features.gone, &kept, &others, meeting)?;
     if sheet.faces.is_empty()
         && let Some(error) = one_sided(&solid, &segments, &walls)
@@ -254,6 +261,7 @@ pub fn deflate(
         faces: report::skin_faces(&solid, &faces),
         pairs: walls.pairs.iter().filter(|p| p.group < p.partner).count(),
         unpaired,
+        loose_ends: buried.at.map(|at| LooseEnds { length: buried.length, at }),
         bare: bare.walls.iter().map(|(g, area)| named(&solid, &segments, *g, *area)).collect(),
         patches: mesh.groups.len(),
         joints: topology.joints,
@@ -288,7 +296,7 @@ fn one_sided(solid: &Solid, segments: &Segments, walls: &Walls) -> Option<Deflat
 /// How many patches stand between two middles.
 fn steps_of(mesh: &TriMesh, order: &[u32], sheet: &Sheet, segments: &Segments, walls: &Walls) -> usize {
     let is_step = |f: u32| match sheet.sources[order[f as usize] as usize] {
-        Source::Plane(k) => sheet.planes[k as usize].1,
+        Source::Plane(k) => sheet.planes[k as usize].is_step,
         Source::Facet(f) => !walls.is_wall[segments.of(f) as usize],
     };
     mesh.groups.iter().filter(|patch| patch.faces.clone().any(is_step)).count()

@@ -5,11 +5,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec3;
 
 use super::assemble::Moved;
+use super::cells::Cells;
 use super::looks::Pair;
 use super::middle::Middles;
 use super::plane::Plane;
 use super::segments::Segments;
 use super::solid::Solid;
+use super::straighten::WITHIN;
 use super::walls::Walls;
 use super::{DeflateOptions, Steps};
 
@@ -42,33 +44,6 @@ pub(super) struct PlanePiece {
     pub(super) cells: Option<Cells>,
     /// Directed edges about the piece, as its plane faces; if there are any, the borders of its groups do not count.
     pub(super) outline: Vec<[u32; 2]>,
-}
-
-/// How large triangles may be.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Cells {
-    /// The longest edge, in mm.
-    pub(super) length: f64,
-    /// If this matters in one direction only, as the thickness of a wall with draft does, the direction: across it edges are [`LONG`] times as long.
-    pub(super) along: Option<DVec3>,
-}
-
-/// How long triangles are, over their width, where only the latter matters.
-pub(super) const LONG: f64 = 8.0;
-
-impl Cells {
-    /// Small enough for both.
-    pub(super) fn both(a: Self, b: Self) -> Self {
-        let same = a.along.zip(b.along).filter(|(a, b)| a.dot(*b).abs() > 1.0 - PARALLEL);
-        Self { length: a.length.min(b.length), along: same.map(|(a, _)| a) }
-    }
-
-    /// How long an edge in a direction may be.
-    pub(super) fn length_in(&self, direction: DVec3) -> f64 {
-        let Some(along) = self.along else { return self.length };
-        let (far, near) = (along.dot(direction), direction.reject_from_normalized(along).length());
-        self.length * direction.length() / far.hypot(near / LONG).max(f64::MIN_POSITIVE)
-    }
 }
 
 impl PlanePiece {
@@ -189,7 +164,8 @@ fn level_sides(
         let mut others = of_kept.peekable();
         others.peek()?;
         let plane = middles.mid_planes.plane(first.0);
-        let is_in_it = |v: u32| plane.height(moved.positions[v as usize]).abs() < ROUNDING * solid.size;
+        let tolerance = (ROUNDING * solid.size).max(WITHIN * solid.rounding);
+        let is_in_it = |v: u32| plane.height(moved.positions[v as usize]).abs() < tolerance;
         // A bead that runs across a plate arches out of it at its ends.
         let is_level = || border(solid, segments, gone, g).all(|edge| edge.into_iter().all(is_in_it));
         (others.all(|other| other == Some(first)) && is_level()).then_some((g, first.0, first.1))
@@ -208,7 +184,7 @@ fn even_length(segments: &Segments, walls: &Walls, g: u32) -> Option<Cells> {
     let own = segments.group(g).plane?;
     let of_pair = |p: &Pair| {
         let slope = own.normal + segments.group(p.partner).plane?.normal;
-        let cells = Cells { length: EVEN * p.thickness / slope.length(), along: slope.try_normalize() };
+        let cells = Cells::in_strips(EVEN * p.thickness / slope.length(), slope);
         (slope.length() > PARALLEL).then_some(cells)
     };
     walls.partners(g).iter().filter_map(of_pair).reduce(Cells::both)

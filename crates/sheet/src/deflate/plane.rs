@@ -40,25 +40,32 @@ impl Plane {
 #[derive(Debug)]
 pub(super) struct PlaneTable {
     planes: Vec<Plane>,
-    size: f64,
     centre: DVec3,
+    /// How far two that are one are apart at the centre, in mm, and how much they lean, in radians.
+    apart: f64,
+    lean: f64,
 }
 
-/// Two planes are one if they are this near to each other, over the solid's size.
+/// Two planes are one if they are this near to each other, over the solid's size; or if they are apart by so many times what its file rounds
+/// by, and lean by so many times that over its size: planes of small faces lean more than they are off.
 const SAME_PLANE: f64 = 2e-6;
+const ROUNDED: f64 = 4.0;
+const ROUNDED_LEAN: f64 = 20.0;
 
 impl PlaneTable {
-    /// For a solid of the given diagonal about `centre`.
-    pub(super) fn new(size: f64, centre: DVec3) -> Self {
-        Self { planes: Vec::new(), size, centre }
+    /// For a solid of the given diagonal about `centre`, whose file rounds by so much.
+    pub(super) fn new(size: f64, rounding: f64, centre: DVec3) -> Self {
+        let apart = (SAME_PLANE * size).max(ROUNDED * rounding);
+        let lean = (2.0 * SAME_PLANE).max(ROUNDED_LEAN * rounding / size);
+        Self { planes: Vec::new(), centre, apart, lean }
     }
 
     /// The number of a plane with its side, added if it is new. O(planes).
     pub(super) fn number(&mut self, plane: Plane) -> u32 {
         let same = |q: &Plane| {
             let lean = (q.normal - plane.normal).length();
-            lean < 2.0 * SAME_PLANE
-                && (q.height(self.centre) - plane.height(self.centre)).abs() < SAME_PLANE * self.size
+            let apart = (q.height(self.centre) - plane.height(self.centre)).abs();
+            lean < self.lean && apart < self.apart
         };
         if let Some(k) = self.planes.iter().position(same) {
             return k as u32;

@@ -31,6 +31,8 @@ const MOST_BETWEEN: usize = 64;
 const SLIGHT_FOLD: f64 = 1.0 / 180.0 * std::f64::consts::PI;
 /// Unless the face is so many times wider than all behind them.
 const MUCH_WIDER: f64 = 20.0;
+/// Most edges are half of them, as exactly as lengths are known: a facet has two alike.
+const HALF: f64 = 0.5 - 1e-6;
 
 const NONE: u32 = u32::MAX;
 
@@ -199,7 +201,7 @@ impl Regions {
                     curved += b.length;
                 }
             }
-            smooth > 0.0 && curved >= 0.5 * smooth
+            smooth > 0.0 && curved >= HALF * smooth
         };
         let curved: Vec<u32> =
             (0..self.faces.len() as u32).filter(|r| is_speck[*r as usize] && runs_on(*r, is_plane)).collect();
@@ -248,7 +250,7 @@ impl Regions {
         let wide = |b: &&Beside| self.leads_to_a_wide_one(region, b.other, sizes);
         let length = |all: &mut dyn Iterator<Item = &Beside>| all.map(|b| b.length).sum::<f64>();
         let beside = self.beside(region);
-        length(&mut beside.iter().filter(wide)) >= 0.5 * length(&mut beside.iter())
+        length(&mut beside.iter().filter(wide)) >= HALF * length(&mut beside.iter())
     }
 
     /// Facets of a curved face that were divided where they lie, as remeshing does, look plane one by one. Many in a row are no
@@ -379,16 +381,18 @@ fn is_turned_little(solid: &Solid, f: u32, normal: DVec3, corners: &[DVec3; 3], 
     turn.sqrt() < 2.0 * tolerance / height.max(f64::MIN_POSITIVE)
 }
 
-/// About how wide some faces are, in mm: area over diameter.
+/// About how wide some faces are, in mm: area over the diagonal of a rectangle that is spread out as much.
 pub(super) fn width(solid: &Solid, faces: &[u32]) -> f64 {
-    let (mut lo, mut hi) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let mut area = 0.0;
-    for &f in faces {
-        for p in solid.mesh.corners(f) {
-            lo = lo.min(p);
-            hi = hi.max(p);
-        }
-        area += solid.areas[f as usize];
-    }
-    area / (hi - lo).length().max(f64::MIN_POSITIVE)
+    let area: f64 = faces.iter().map(|f| solid.areas[*f as usize]).sum();
+    let weighed =
+        |f: &u32| solid.mesh.corners(*f).into_iter().sum::<DVec3>() * (solid.areas[*f as usize] / 3.0);
+    let centre = faces.iter().map(weighed).sum::<DVec3>() / area.max(f64::MIN_POSITIVE);
+    // Of a triangle, the mean square of the way from the centre.
+    let spread = |f: &u32| {
+        let corners = solid.mesh.corners(*f).map(|p| p - centre);
+        let squares: f64 = corners.iter().map(|p| p.length_squared()).sum();
+        solid.areas[*f as usize] * (squares + corners.into_iter().sum::<DVec3>().length_squared()) / 12.0
+    };
+    let diagonal = (12.0 * faces.iter().map(spread).sum::<f64>() / area.max(f64::MIN_POSITIVE)).sqrt();
+    area / diagonal.max(f64::MIN_POSITIVE)
 }

@@ -103,6 +103,8 @@ pub struct DeflateReport {
     pub unpaired: Vec<NamedFace>,
     /// Walls most of which came to have no mid-surface, with the area that has none.
     pub bare: Vec<NamedFace>,
+    /// Borders of the mid-surface that end inside the material: walls that should be joined there and are not.
+    pub loose_ends: Option<LooseEnds>,
     /// Smooth pieces of the mid-surface.
     pub patches: usize,
     /// Lines in which three and more faces meet, from branching to branching.
@@ -178,4 +180,13 @@ pub(super) fn wall_pairs(solid: &Solid, segments: &Segments, walls: &Walls, face
         })
     };
     areas.into_iter().filter_map(pair).collect()
+}
+
+/// Borders that end inside the material.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LooseEnds {
+    /// Of all, in mm.
+    pub length: f64,
+    /// Beside one, in mm.
+    pub at: DVec3,
 }

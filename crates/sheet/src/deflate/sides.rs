@@ -56,81 +56,95 @@ impl Parity {
     }
 }
 
-/// The groups that become the mid-surface: of each pair of walls one. With `other`, the other one where it would hardly do worse.
-/// O(n log n).
-pub(super) fn kept_groups(
-    solid: &Solid,
-    segments: &Segments,
-    walls: &Walls,
-    blends: &Blends,
-    flush: &Flush,
-    mids: &[Vec<Plane>],
-    other: bool,
-) -> Vec<bool> {
-    let n = segments.groups.len();
-    let mut parity = Parity::new(n);
-    let creases = Creases::new(solid, segments, walls, blends);
-    // Smooth neighbours stay together: nothing else would join them.
-    for &[a, b] in &creases.smooth {
-        parity.relate(a, b, false);
-    }
-    let mut order: Vec<usize> = (0..walls.pairs.len()).collect();
-    order.sort_by(|a, b| walls.pairs[*b].area.total_cmp(&walls.pairs[*a].area).then(a.cmp(b)));
-    for k in order {
-        let pair = walls.pairs[k];
-        let least = segments.group(pair.group).area.min(segments.group(pair.partner).area);
-        if pair.area > TOUCHED * least {
-            parity.relate(pair.group, pair.partner, true);
+/// Walls that are on one side or the other of the same set: what runs smoothly into each other, and what lies opposite to it.
+pub(super) struct Sets<'a> {
+    segments: &'a Segments,
+    walls: &'a Walls,
+    parity: Parity,
+    creases: Creases,
+}
+
+impl<'a> Sets<'a> {
+    /// O(n log n).
+    pub(super) fn new(solid: &Solid, segments: &'a Segments, walls: &'a Walls, blends: &Blends) -> Self {
+        let mut parity = Parity::new(segments.groups.len());
+        let creases = Creases::new(solid, segments, walls, blends);
+        // Smooth neighbours stay together: nothing else would join them.
+        for &[a, b] in &creases.smooth {
+            parity.relate(a, b, false);
         }
-    }
-    let stood_on = creases.stood_on(walls, &mut parity);
-    let levels = widths_of_levels(segments, walls);
-    // What speaks for each side of each set.
-    let mut score = vec![[0.0f64; 2]; n];
-    let mut cut = vec![[0.0f64; 2]; n];
-    let mut faces = vec![[0usize; 2]; n];
-    // Plane walls are to lie opposite to plane ones: their middle is a plane only there.
-    let mut bent = vec![[0.0f64; 2]; n];
-    for g in (0..n as u32).filter(|g| walls.is_wall[*g as usize]) {
-        let (root, side) = parity.find(g);
-        let group = segments.group(g);
-        let wide = group.area.sqrt();
-        // A wall with two middles would have to be cut in two. Plane ones are cut by what lies in them; a curved one has edges where its
-        // thickness steps, or where others stand on it, on that side only.
-        let split = match group.plane {
-            Some(_) => 4.0 * (wide * (mids[g as usize].len().max(1) - 1) as f64 + flush.length[g as usize]),
-            None => STEPPED * levels[g as usize],
-        };
-        let stood_on = STOOD_ON * stood_on[g as usize];
-        score[root as usize][usize::from(side)] += creases.concave[g as usize] + stood_on - split;
-        cut[root as usize][usize::from(side)] += FIRST * stood_on;
-        faces[root as usize][usize::from(side)] += group.faces.len();
-        if group.plane.is_some() {
-            let curved = |p: &&Pair| segments.group(p.partner).plane.is_none();
-            bent[root as usize][usize::from(side)] +=
-                walls.partners(g).iter().filter(curved).map(|p| p.area).sum::<f64>();
+        let mut order: Vec<usize> = (0..walls.pairs.len()).collect();
+        order.sort_by(|a, b| walls.pairs[*b].area.total_cmp(&walls.pairs[*a].area).then(a.cmp(b)));
+        for k in order {
+            let pair = walls.pairs[k];
+            let least = segments.group(pair.group).area.min(segments.group(pair.partner).area);
+            if pair.area > TOUCHED * least {
+                parity.relate(pair.group, pair.partner, true);
+            }
         }
+        Self { segments, walls, parity, creases }
     }
-    let mut kept: Vec<bool> = (0..n as u32)
-        .map(|g| {
+
+    /// One number for all groups of a set, by group.
+    pub(super) fn numbers(&mut self) -> Vec<u32> {
+        (0..self.segments.groups.len() as u32).map(|g| self.parity.find(g).0).collect()
+    }
+
+    /// The groups that become the mid-surface: of each pair of walls one. With `other`, the other one where it would hardly do worse. O(n).
+    pub(super) fn kept(&mut self, flush: &Flush, mids: &[Vec<Plane>], other: bool) -> Vec<bool> {
+        let Self { segments, walls, parity, creases } = self;
+        let n = segments.groups.len();
+        let stood_on = creases.stood_on(walls, parity);
+        let levels = widths_of_levels(segments, walls);
+        // What speaks for each side of each set.
+        let mut score = vec![[0.0f64; 2]; n];
+        let mut cut = vec![[0.0f64; 2]; n];
+        let mut faces = vec![[0usize; 2]; n];
+        // Plane walls are to lie opposite to plane ones: their middle is a plane only there.
+        let mut bent = vec![[0.0f64; 2]; n];
+        for g in (0..n as u32).filter(|g| walls.is_wall[*g as usize]) {
             let (root, side) = parity.find(g);
-            let ([a, b], [few, many]) = (score[root as usize], faces[root as usize]);
-            let [p, q] = bent[root as usize];
-            let [cut_a, cut_b] = cut[root as usize];
-            let ahead = (b + cut_b) - (a + cut_a);
-            let second = if ahead.abs() > DIFFERENT * walls.max_thickness {
-                ahead > 0.0
-            } else if (p - q).abs() > MUCH * (p + q) {
-                q < p
-            } else {
-                many < few
+            let group = segments.group(g);
+            let wide = group.area.sqrt();
+            // A wall with two middles would have to be cut in two. Plane ones are cut by what lies in them; a curved one has edges where its
+            // thickness steps, or where others stand on it, on that side only.
+            let split = match group.plane {
+                Some(_) => {
+                    4.0 * (wide * (mids[g as usize].len().max(1) - 1) as f64 + flush.length[g as usize])
+                }
+                None => STEPPED * levels[g as usize],
             };
-            let second = second != (other && (a - b).abs() < HARDLY * walls.max_thickness);
-            walls.is_wall[g as usize] && side == second
-        })
-        .collect();
-    keep_sides_with_signs(walls, mids, &mut kept);
-    kept
+            let stood_on = STOOD_ON * stood_on[g as usize];
+            score[root as usize][usize::from(side)] += creases.concave[g as usize] + stood_on - split;
+            cut[root as usize][usize::from(side)] += FIRST * stood_on;
+            faces[root as usize][usize::from(side)] += group.faces.len();
+            if group.plane.is_some() {
+                let curved = |p: &&Pair| segments.group(p.partner).plane.is_none();
+                bent[root as usize][usize::from(side)] +=
+                    walls.partners(g).iter().filter(curved).map(|p| p.area).sum::<f64>();
+            }
+        }
+        let mut kept: Vec<bool> = (0..n as u32)
+            .map(|g| {
+                let (root, side) = parity.find(g);
+                let ([a, b], [few, many]) = (score[root as usize], faces[root as usize]);
+                let [p, q] = bent[root as usize];
+                let [cut_a, cut_b] = cut[root as usize];
+                let ahead = (b + cut_b) - (a + cut_a);
+                let second = if ahead.abs() > DIFFERENT * walls.max_thickness {
+                    ahead > 0.0
+                } else if (p - q).abs() > MUCH * (p + q) {
+                    q < p
+                } else {
+                    many < few
+                };
+                let second = second != (other && (a - b).abs() < HARDLY * walls.max_thickness);
+                walls.is_wall[g as usize] && side == second
+            })
+            .collect();
+        keep_sides_with_signs(walls, mids, &mut kept);
+        kept
+    }
 }
 
 /// How wide the levels of each group are together, but for the widest: where the other side of a round wall steps, what looks at it from there

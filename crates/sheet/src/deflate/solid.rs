@@ -34,6 +34,8 @@ pub(super) struct Solid {
     pub(super) areas: Vec<f64>,
     /// Diagonal of the bounding box.
     pub(super) size: f64,
+    /// By how much its file rounds coordinates, in mm; 0 if hardly.
+    pub(super) rounding: f64,
     /// Volume in mm³.
     pub(super) volume: f64,
 }
@@ -73,7 +75,7 @@ impl Solid {
         }
         let caster = crossings.caster(&mesh);
         let (normals, areas) = normals_and_areas(&mesh, &adjacency, size);
-        Ok(Self { mesh, caster, adjacency, normals, areas, size, volume })
+        Ok(Self { mesh, caster, adjacency, normals, areas, size, rounding: 0.0, volume })
     }
 
     /// The same faces with nodes in other places; `None` if they would cross each other.
@@ -87,7 +89,8 @@ impl Solid {
         let adjacency = Adjacency::new(&mesh);
         let (normals, areas) = normals_and_areas(&mesh, &adjacency, self.size);
         let volume = volume(&mesh);
-        Some(Self { mesh, caster, adjacency, normals, areas, size: self.size, volume })
+        let Self { size, rounding, .. } = *self;
+        Some(Self { mesh, caster, adjacency, normals, areas, size, rounding, volume })
     }
 
     /// How many faces there are.

@@ -16,7 +16,7 @@ const MOST: f64 = 2e-5;
 /// Less than this share of it does no harm.
 const FINE: f64 = 4e-8;
 /// Nodes are off their planes by up to so many times what one coordinate is off by.
-const WITHIN: f64 = 3.0;
+pub(super) const WITHIN: f64 = 3.0;
 /// Faces may be in one plane if that of one is off by no more than so many times that at the other, and leans by no more than this.
 const FAR: f64 = 30.0;
 const LEAN: f64 = 0.01;
@@ -31,11 +31,12 @@ const THROUGH_SINGLE: f64 = 1.2e-7;
 const MEETING: f64 = 0.1;
 
 /// The solid with nodes in the planes of their faces, or as it is where its file hardly rounds. O(n log n).
-pub(super) fn straightened(solid: Solid) -> Solid {
+pub(super) fn straightened(mut solid: Solid) -> Solid {
     let rounding = rounding(&solid.mesh.positions, solid.size);
     if rounding < FINE * solid.size {
         return solid;
     }
+    solid.rounding = rounding;
     let tolerance = (WITHIN * rounding).max(COPLANAR * solid.size);
     let regions = plane_regions(&solid, tolerance);
     let (planes, of_region) = planes(&solid, &regions, tolerance);

@@ -7,7 +7,7 @@ use mesh_kernel::TriMesh;
 use mesh_kernel::query::Adjacency;
 use rayon::prelude::*;
 
-use super::assemble::{Sheet, Source};
+use super::assemble::{FilledPlane, Sheet, Source};
 use super::exact::Exact;
 use super::follow::between;
 use super::middle::{Middle, Middles};
@@ -39,7 +39,7 @@ pub(super) fn thicknesses(
                 .or_else(|| beside_facet(solid, segments, walls, corners, source))
         }
         Source::Plane(k) => {
-            let (plane, is_step) = sheet.planes[k as usize];
+            let FilledPlane { plane, is_step, .. } = sheet.planes[k as usize];
             if is_step {
                 return None;
             }
@@ -49,11 +49,11 @@ pub(super) fn thicknesses(
     };
     let known: Vec<Option<f64>> = (0..sheet.faces.len()).into_par_iter().map(of).collect();
     let fallback = |f: usize| match sheet.sources[f] {
-        Source::Plane(k) => sheet.groups[k as usize].iter().find_map(|g| main_thickness(walls, *g)),
+        Source::Plane(k) => sheet.planes[k as usize].groups.iter().find_map(|g| main_thickness(walls, *g)),
         Source::Facet(source) => main_thickness(walls, segments.of(source)),
     };
     let is_step = |source: &Source| match source {
-        Source::Plane(k) => sheet.planes[*k as usize].1,
+        Source::Plane(k) => sheet.planes[*k as usize].is_step,
         Source::Facet(f) => !walls.is_wall[segments.of(*f) as usize],
     };
     let steps: Vec<bool> = sheet.sources.iter().map(is_step).collect();

@@ -4,6 +4,7 @@
 //! crosses itself, has lost edges, is in parts, or has left the middle of its walls.
 
 use std::cell::OnceCell;
+use std::collections::BTreeSet;
 
 use mesh_kernel::TriMesh;
 use mesh_kernel::query::{Crossings, RayCaster};
@@ -12,8 +13,9 @@ use super::assemble::{Moved, Sheet, Source, assemble};
 use super::bare::Bare;
 use super::exact::Exact;
 use super::follow::{Follow, split_to};
-use super::imprint::{Beside, imprinted};
+use super::imprint::{Imprinted, imprinted};
 use super::looks::mean_thickness;
+use super::loose::{Beside, Buried};
 use super::middle::Middles;
 use super::offset::read_off;
 use super::remesh::Remesh;
@@ -32,8 +34,8 @@ const FOLDED: f64 = 5e-3;
 const ASTRAY: f64 = 0.05;
 /// A sheet is truer than another if it has less than this share of what that has astray.
 const TRUER: f64 = 0.5;
-/// What is left of loose borders, over what there was, if imprinting them was of use.
-const LOOSE: f64 = 0.5;
+/// Imprinting is of use if this share of the borders is not loose any more.
+const MOSTLY: f64 = 0.5;
 /// So many times what comes to cross is held before.
 const HOLDINGS: usize = 5;
 
@@ -44,6 +46,8 @@ pub(super) struct Trials<'a> {
     pub(super) parts: usize,
     pub(super) segments: &'a Segments,
     pub(super) walls: &'a Walls,
+    /// By group, which set of walls it is of that are kept on one side or the other together.
+    pub(super) set_of: Vec<u32>,
     pub(super) middles: &'a Middles,
     pub(super) replacement: &'a Replacement<'a>,
     pub(super) exact: &'a Exact,
@@ -72,6 +76,8 @@ pub(super) struct Chosen {
     pub(super) with_features: bool,
     /// What has no mid-surface.
     pub(super) bare: Bare,
+    /// What ends inside the material.
+    pub(super) buried: Buried,
 }
 
 impl Made {
@@ -162,24 +168,65 @@ impl Trials<'_> {
             }
         }
         let gone = if with_features { &with_all } else { gone };
-        if let Some(sheet) = imprinted(&best.sheet, &self.beside(&best), self.options.edge_length) {
-            let trial = self.made(sheet);
-            let loose = |made: &Made| self.beside(made).loose_length(&made.sheet);
+        (best, bare) = self.joined(best, bare, gone);
+        let mut buried = self.buried(&best);
+        if let Some(kept) = self.turned(&best, &buried, kept) {
+            let trial = self.stitched(gone, &kept, &meeting);
             let left = self.bare(&trial, gone);
-            if trial.faults() <= best.faults()
-                && trial.torn <= best.torn
-                && left.area() <= bare.area()
-                && loose(&trial) < LOOSE * loose(&best)
-            {
-                (best, bare) = (trial, left);
+            let (trial, left) = self.joined(trial, left, gone);
+            let still = self.buried(&trial);
+            let is_no_worse = trial.faults() <= best.faults() && trial.torn <= best.torn;
+            let is_as_true = trial.astray < best.astray.max(ASTRAY) && left.area() <= bare.area();
+            if is_no_worse && is_as_true && still.length < TRUER * buried.length {
+                (best, bare, buried) = (trial, left, still);
             }
         }
-        Ok(Chosen { made: best, with_features, bare })
+        Ok(Chosen { made: best, with_features, bare, buried })
+    }
+
+    /// A sheet with its loose borders on the faces beside them, if it is better so.
+    fn joined(&self, made: Made, bare: Bare, gone: &[bool]) -> (Made, Bare) {
+        let joined = imprinted(&made.sheet, &self.beside(&made), self.options.edge_length);
+        let Some(Imprinted { sheet, length }) = joined else { return (made, bare) };
+        let trial = match self.options.edge_length {
+            Some(_) => self.followed(sheet, &[]),
+            None => self.made(sheet),
+        };
+        let loose = |made: &Made| self.beside(made).loose_length(&made.sheet);
+        let left = self.bare(&trial, gone);
+        let is_no_worse =
+            trial.faults() <= made.faults() && trial.torn <= made.torn && left.area() <= bare.area();
+        if is_no_worse && loose(&trial) < loose(&made) - MOSTLY * length {
+            (trial, left)
+        } else {
+            (made, bare)
+        }
+    }
+
+    /// The groups that are kept if curved walls with borders inside the material are kept on their other sides: where a web is as wide as the
+    /// facets that it ends on, these are seen on the other side only. `None` if there are none such.
+    fn turned(&self, made: &Made, buried: &Buried, kept: &[bool]) -> Option<Vec<bool>> {
+        let of = |f: &u32| match made.sheet.sources[*f as usize] {
+            Source::Facet(f) => Some(self.set_of[self.segments.of(f) as usize]),
+            Source::Plane(_) => None,
+        };
+        let sets: BTreeSet<u32> = buried.faces.iter().filter_map(of).collect();
+        let turned =
+            |(g, kept): (usize, &bool)| self.walls.is_wall[g] && *kept != sets.contains(&self.set_of[g]);
+        (!sets.is_empty()).then(|| kept.iter().enumerate().map(turned).collect())
     }
 
     fn beside<'b>(&'b self, made: &'b Made) -> Beside<'b> {
         let thickness = mean_thickness(&self.walls.pairs).unwrap_or(self.walls.max_thickness);
-        Beside { sheet: &made.caster, skin: &self.solid.caster, thickness }
+        Beside { sheet: &made.caster, solid: self.solid, thickness }
+    }
+
+    /// What ends inside the material, but for plates that were to end where the thickness steps.
+    fn buried(&self, made: &Made) -> Buried {
+        match self.options.steps {
+            Steps::Apart => Buried::default(),
+            _ => self.beside(made).buried(&made.sheet),
+        }
     }
 
     /// What of the walls has no mid-surface, but for what is to be removed.

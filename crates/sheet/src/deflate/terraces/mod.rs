@@ -213,7 +213,7 @@ impl Terraces<'_> {
     /// Upright rectangles, those in one plane as one piece.
     fn steps(&self, steps: &[[u32; 4]], positions: &[DVec3]) -> Vec<PlanePiece> {
         let centre = self.solid.mesh.bounds().map_or(DVec3::ZERO, |[lo, hi]| (lo + hi) / 2.0);
-        let mut table = PlaneTable::new(self.solid.size, centre);
+        let mut table = PlaneTable::new(self.solid.size, self.solid.rounding, centre);
         let mut pieces: BTreeMap<u32, PlanePiece> = BTreeMap::new();
         for &[a, b, c, d] in steps {
             let [p, q, r] = [a, b, c].map(|v| positions[v as usize]);

@@ -1,8 +1,9 @@
 //! Plates with slots: what is left between these is no wall of its own, and leaves beside them hang on the plate.
 
-use mesh_kernel::glam::DVec3;
+use mesh_kernel::TriMesh;
+use mesh_kernel::glam::{DMat3, DVec3};
 
-use crate::deflate::solid_models::{prism, revolved, turned};
+use crate::deflate::solid_models::{block, prism, revolved, turned, united};
 use crate::deflate::support::{deflated, has_topology, near};
 
 /// Slats that are wider than thick: their sides lie opposite to each other as well, and are ends nevertheless.
@@ -138,5 +139,28 @@ fn what_is_raised_on_both_sides_is_no_step() {
         near(thin.report.area, polygon * outer * outer, 1e-9);
         near(thin.report.thickness.max, 4.0, 1e-9);
         assert_eq!(thin.report.steps, 0);
+    }
+}
+
+/// A pad that is raised as much on both sides is as thick as it is wherever the plate lies, and however its file rounds.
+#[test]
+fn a_pad_on_both_sides_is_a_wall_in_any_position() {
+    for (plate, pad) in [(1.8, 5.0), (2.0, 5.0), (2.0, 4.0)] {
+        let raised = (pad - plate) / 2.0;
+        let solid = united(&[
+            block([0.0, 0.0, 0.0], [100.0, 60.0, plate]),
+            block([30.0, 10.0, -raised], [70.0, 50.0, plate + raised]),
+        ]);
+        for degrees in [0.0f64, 20.0, 45.0, 77.0] {
+            let turn = DMat3::from_rotation_z(degrees.to_radians()) * DMat3::from_rotation_x(degrees / 7.0);
+            for decimals in [1e3, 1e4, 1e12] {
+                let rounded = |p: DVec3| (p * decimals).round() / decimals;
+                let positions = solid.positions.iter().map(|p| rounded(turn * *p)).collect();
+                let thin = deflated(&TriMesh::new(positions, solid.faces.clone()));
+                has_topology(&thin, [1, 0, 1, 1]);
+                near(thin.report.area, 6000.0, 1e-4);
+                near(thin.report.thickness.max, pad, 1e-3);
+            }
+        }
     }
 }

@@ -18,7 +18,7 @@ pub(crate) fn near(value: f64, wanted: f64, relative: f64) {
 pub(crate) fn has_topology(thin: &Deflated, wanted: [usize; 4]) {
     let r = &thin.report;
     assert_eq!([r.patches, r.joints, r.free_loops, r.components], wanted, "{r:?}");
-    assert_eq!((r.self_intersections, r.lost_edges), (0, 0));
+    assert_eq!((r.self_intersections, r.lost_edges, r.loose_ends), (0, 0, None));
     // The kernel makes a body of it, and its counts agree.
     let body = Body::from_tri_mesh(&thin.sheet).unwrap();
     assert!(body.counts().identity_holds());
