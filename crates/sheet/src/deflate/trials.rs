@@ -107,6 +107,11 @@ impl Trials<'_> {
         meeting: Moved,
     ) -> Result<Chosen, DeflateError> {
         let (assembled, mut best) = self.as_it_comes(gone, kept, &meeting);
+        if best.faults() > 0 {
+            // Webs that end beside a wall may cross it, and nothing else may be wrong.
+            let bare = self.bare(&best, gone);
+            best = self.joined(best, bare, gone).0;
+        }
         if best.faults() > 0 || best.astray > FOLDED || best.torn > 0 {
             let is_true = |made: &Made| {
                 let is_true = made.faults() == 0 && made.astray < best.astray.max(ASTRAY);
