@@ -26,6 +26,8 @@ const MOST_FACES: usize = 256;
 /// Borders are in the middle of the material if that goes on for more than this share of the thickness: ends that are round are not as long
 /// as the material by less.
 const DEEP: f64 = 0.25;
+/// And count if they are longer than so many thicknesses.
+const LONG: f64 = 2.0;
 
 /// A free edge that ends beside a face.
 #[derive(Clone, Copy, Debug)]
@@ -63,7 +65,7 @@ impl Beside<'_> {
         loose.iter().map(length).sum()
     }
 
-    /// Borders that end in the middle of the material instead of at its skin; the foot of a rib's end does so, and counts for nothing. O(n log n).
+    /// Borders that end in the middle of the material instead of at its skin; the foot of a rib's end does so, and what is no longer counts for nothing. O(n log n).
     pub(super) fn buried(&self, sheet: &Sheet) -> Buried {
         let mesh = TriMesh::new(sheet.positions.clone(), sheet.faces.clone());
         let adjacency = Adjacency::new(&mesh);
@@ -91,7 +93,7 @@ impl Beside<'_> {
         }
         let mut found = Buried::default();
         for h in buried {
-            if lengths[&chains.find(adjacency.ends(h)[0])] > self.thickness {
+            if lengths[&chains.find(adjacency.ends(h)[0])] > LONG * self.thickness {
                 let [p, q] = adjacency.ends(h).map(|v| mesh.positions[v as usize]);
                 found.length += length(h);
                 found.at = found.at.or(Some(p.midpoint(q)));

@@ -381,18 +381,17 @@ fn is_turned_little(solid: &Solid, f: u32, normal: DVec3, corners: &[DVec3; 3], 
     turn.sqrt() < 2.0 * tolerance / height.max(f64::MIN_POSITIVE)
 }
 
-/// About how wide some faces are, in mm: area over the diagonal of a rectangle that is spread out as much.
+/// About how wide some faces are, in mm: area over diameter.
 pub(super) fn width(solid: &Solid, faces: &[u32]) -> f64 {
     let area: f64 = faces.iter().map(|f| solid.areas[*f as usize]).sum();
     let weighed =
         |f: &u32| solid.mesh.corners(*f).into_iter().sum::<DVec3>() * (solid.areas[*f as usize] / 3.0);
     let centre = faces.iter().map(weighed).sum::<DVec3>() / area.max(f64::MIN_POSITIVE);
-    // Of a triangle, the mean square of the way from the centre.
-    let spread = |f: &u32| {
-        let corners = solid.mesh.corners(*f).map(|p| p - centre);
-        let squares: f64 = corners.iter().map(|p| p.length_squared()).sum();
-        solid.areas[*f as usize] * (squares + corners.into_iter().sum::<DVec3>().length_squared()) / 12.0
+    // From the node that is farthest from the centre to the one that is farthest from that.
+    let farthest = |from: DVec3| {
+        let nodes = faces.iter().flat_map(|f| solid.mesh.corners(*f));
+        nodes.max_by(|p, q| p.distance_squared(from).total_cmp(&q.distance_squared(from))).unwrap_or(from)
     };
-    let diagonal = (12.0 * faces.iter().map(spread).sum::<f64>() / area.max(f64::MIN_POSITIVE)).sqrt();
-    area / diagonal.max(f64::MIN_POSITIVE)
+    let end = farthest(centre);
+    area / end.distance(farthest(end)).max(f64::MIN_POSITIVE)
 }
