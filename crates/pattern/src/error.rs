@@ -109,6 +109,19 @@ pub enum PatternError {
         /// Node.
         b: u32,
     },
+    /// Consecutive nodes of a cut share no edge of the mesh.
+    #[error(
+        "cut: nodes {} and {} of the mesh, counted from 1, are not joined by an edge; a cut names every node that it \
+         passes",
+        .a + 1,
+        .b + 1
+    )]
+    CutNotAlongEdges {
+        /// Node of the mesh, from 0.
+        a: u32,
+        /// Node of the mesh, from 0.
+        b: u32,
+    },
     /// A patch index beyond the patches.
     #[error("{what} names surface number {patch}, but there are {patches}")]
     NoSuchPatch {
@@ -160,5 +173,16 @@ pub enum PatternError {
         patch: String,
         /// Why.
         reason: String,
+    },
+    /// Nothing is left of a piece's outline: its size is beyond what a drawing in millimetres can hold.
+    #[error(
+        "surface {patch:?} of {area:e} mm² has no outline that could be drawn in millimetres; say in which unit its \
+         coordinates are"
+    )]
+    NoOutline {
+        /// Name of the patch.
+        patch: String,
+        /// Its area in space, in mm².
+        area: f64,
     },
 }

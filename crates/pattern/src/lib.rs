@@ -35,11 +35,11 @@ pub use pattern::*;
 ///
 /// # Errors
 /// Everything that [`PatternError`] lists: patches that are no oriented manifolds, closed or with handles; indices out
-/// of range; seams that do not correspond; options out of range.
+/// of range; seams that do not correspond; options out of range; patches too small or too large for an outline.
 pub fn make(input: &PatternInput, options: &PatternOptions) -> Result<Pattern, PatternError> {
     pieces::check(input, options)?;
     let flat = flatten::flatten(input, options)?;
-    Ok(pieces::make(input, flat, options))
+    pieces::make(input, flat, options)
 }
 
 /// Flattens any mesh: one piece a group and connected part; see [`input_of_mesh`].

@@ -291,12 +291,7 @@ fn cut_lines(
         let wanted = (pair[0].min(pair[1]), pair[0].max(pair[1]));
         let start = sorted.partition_point(|x| x.0 < wanted);
         let Some(&(_, h)) = sorted.get(start).filter(|x| x.0 == wanted) else {
-            return Err(PatternError::NotAnEdge {
-                patch: "mesh".to_owned(),
-                what: "cut".to_owned(),
-                a: pair[0],
-                b: pair[1],
-            });
+            return Err(PatternError::CutNotAlongEdges { a: pair[0], b: pair[1] });
         };
         let (mut a, mut b) = (local[h as usize], local[next(h) as usize]);
         if origin(h) != pair[0] {

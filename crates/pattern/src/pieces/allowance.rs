@@ -62,6 +62,7 @@ pub(crate) fn cut_lines(lines: &[SewingLine], options: &PatternOptions) -> Vec<C
             trimmed.extend(trim(s, next).map(|t| polygon(&t)));
         }
     }
+    let widened = !(added.is_empty() && trimmed.is_empty());
     let shapes = if added.is_empty() {
         vec![body]
     } else {
@@ -76,10 +77,22 @@ pub(crate) fn cut_lines(lines: &[SewingLine], options: &PatternOptions) -> Vec<C
         .into_iter()
         .flatten()
         .map(|contour| contour.into_iter().map(DVec2::from_array).collect::<Vec<_>>())
-        .filter(|c| c.len() > 2 && signed_area(c).abs() > 1.0)
+        .filter(|c| c.len() > 2)
         .collect();
     loops.sort_by(|a, b| signed_area(b).abs().total_cmp(&signed_area(a).abs()));
+    let largest = loops.first().map_or(0.0, |c| signed_area(c).abs());
+    loops.retain(|c| {
+        let area = signed_area(c).abs();
+        area > 0.0 && area == largest || area > speck(c, widened.then_some(largest))
+    });
     loops.into_iter().enumerate().map(|(i, points)| finish(points, i == 0, options)).collect()
+}
+
+/// Area up to which a loop is not to be cut, in mm²: what strips leave between them in a piece of this area, or, where there
+/// are none, a slit that is closed.
+fn speck(points: &[DVec2], widened: Option<f64>) -> f64 {
+    let length: f64 = (0..points.len()).map(|i| points[i].distance(points[(i + 1) % points.len()])).sum();
+    (1e-4 * widened.unwrap_or(length * length)).min(1.0)
 }
 
 fn polygon(points: &[DVec2]) -> Vec<[f64; 2]> {

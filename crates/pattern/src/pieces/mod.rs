@@ -21,8 +21,18 @@ pub(crate) use self::{
     layout::lay_out,
 };
 
+/// Widest seam allowance, in millimetres: ten metres, as far as a template's lengths go.
+const WIDEST: f64 = 10_000.0;
+
 /// Checks the numbers of the options and piece specifications.
 pub(crate) fn check(input: &PatternInput, options: &PatternOptions) -> Result<(), PatternError> {
+    let allowance = |what: &str, value: f64| {
+        if (0.0..=WIDEST).contains(&value) {
+            return Ok(());
+        }
+        let wanted = format!("a number of millimetres from 0 to {WIDEST}");
+        Err(PatternError::BadOption { what: what.to_owned(), wanted, value })
+    };
     let at_least = |what: &str, value: f64, low: f64| {
         if value.is_finite() && value >= low {
             return Ok(());
@@ -42,22 +52,32 @@ pub(crate) fn check(input: &PatternInput, options: &PatternOptions) -> Result<()
     at_least("the fabric width", options.fabric_width_mm, 10.0)?;
     at_least("the gap of the layout", options.layout_gap_mm, 0.0)?;
     for patch in &input.patches {
-        at_least(&format!("the seam allowance of {:?}", patch.name), patch.piece.allowance_mm, 0.0)?;
+        allowance(&format!("the seam allowance of {:?}", patch.name), patch.piece.allowance_mm)?;
         for edge in &patch.piece.edges {
-            at_least(&format!("an edge's seam allowance of {:?}", patch.name), edge.allowance_mm, 0.0)?;
+            allowance(&format!("an edge's seam allowance of {:?}", patch.name), edge.allowance_mm)?;
         }
     }
     Ok(())
 }
 
 /// Makes the pieces of flat patches.
-pub(crate) fn make(input: &PatternInput, mut flat: Flattened, options: &PatternOptions) -> Pattern {
+///
+/// # Errors
+/// [`PatternError::NoOutline`].
+pub(crate) fn make(
+    input: &PatternInput,
+    mut flat: Flattened,
+    options: &PatternOptions,
+) -> Result<Pattern, PatternError> {
     flat.patches.par_iter_mut().zip(&input.patches).for_each(|(f, patch)| stand_up(patch, f));
     let (wanted, notch_mismatch) = notches::wanted(input, &flat);
     let pieces: Vec<Piece> = (0..input.patches.len())
         .into_par_iter()
         .map(|p| piece(input, &flat, p, &wanted[p], options))
         .collect();
+    if let Some(piece) = pieces.iter().find(|p| !has_outline(p)) {
+        return Err(PatternError::NoOutline { patch: piece.name.clone(), area: piece.report.area_3d });
+    }
     let mut warnings = std::mem::take(&mut flat.warnings);
     for piece in &pieces {
         if let Some(fold) = &piece.fold
@@ -78,8 +98,15 @@ pub(crate) fn make(input: &PatternInput, mut flat: Flattened, options: &PatternO
     }
     let layout = lay_out(&pieces, options.fabric_width_mm, options.layout_gap_mm, DVec2::ZERO);
     let flats: Vec<Flat> = flat.patches.into_iter().map(|p| p.flat).collect();
-    Pattern { pieces, flats, seams, layout, warnings }
+    Ok(Pattern { pieces, flats, seams, layout, warnings })
 }
+
+fn has_outline(piece: &Piece) -> bool {
+    !piece.cut.is_empty() && piece.cut.iter().flat_map(|c| &c.points).all(|p| p.is_finite())
+}
+
+/// Part of a piece's size that its lines may be off by, however small it is.
+const FINEST: f64 = 1e-3;
 
 /// Turns a flat patch so that its grain points up, and moves it into the positive quadrant.
 fn stand_up(patch: &Patch, flat: &mut FlatPatch) {
@@ -102,6 +129,9 @@ fn piece(
 ) -> Piece {
     let patch = &input.patches[p];
     let one = &flat.patches[p];
+    let [low, high] = bounds(one.flat.uv.iter().copied());
+    let line_tolerance_mm = options.line_tolerance_mm.min(FINEST * (high - low).max_element());
+    let options = &PatternOptions { line_tolerance_mm, ..options.clone() };
     let edges = outline::boundary_edges(p, patch, one, &flat.seams);
     let mut keep = vec![false; one.flat.uv.len()];
     wanted.iter().for_each(|w| keep[w.node as usize] = true);

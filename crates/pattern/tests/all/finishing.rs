@@ -55,6 +55,37 @@ fn a_square_grows_by_its_allowance_with_sharp_corners() {
 }
 
 #[test]
+fn small_pieces_have_outlines_too() {
+    for side in [1e-3, 0.3, 1.0, 3.0] {
+        for allowance_mm in [0.0, 0.1 * side, 10.0] {
+            let mut patch = square(side);
+            patch.piece.allowance_mm = allowance_mm;
+            let piece = piece(patch);
+            let wide = side + 2.0 * allowance_mm;
+            assert_eq!(piece.cut.len(), 1);
+            let off = area(&piece.cut[0].points) / (wide * wide) - 1.0;
+            assert!(off.abs() < 1e-3, "{side} mm with {allowance_mm} mm: {off}");
+        }
+    }
+    // A disk of 0.2 mm across stays one, whatever the tolerance of lines.
+    let disk = grid("disk", 1, 40, |u, v| (0.1 * (1.0 - 0.9 * u) * DVec2::from_angle(6.0 * v)).extend(0.0));
+    assert!(piece(disk).sew[0].points().len() > 20);
+}
+
+#[test]
+fn small_holes_are_cut_where_nothing_is_added() {
+    let mut plate = grid("plate", 30, 30, |u, v| DVec3::new(15.0 * u, 15.0 * v, 0.0));
+    plate.faces.retain(|f| {
+        let c = f.iter().map(|&v| plate.positions[v as usize]).sum::<DVec3>() / 3.0;
+        (c - DVec3::new(5.25, 5.25, 0.0)).abs().max_element() > 0.25
+    });
+    plate.piece.allowance_mm = 0.0;
+    let piece = piece(plate);
+    assert_eq!(piece.cut.len(), 2);
+    assert!((area(&piece.cut[1].points) + 0.25).abs() < 1e-6);
+}
+
+#[test]
 fn an_inward_corner_has_no_wedge() {
     let piece = piece(ell());
     let cut = &piece.cut[0];

@@ -123,6 +123,26 @@ fn seams_and_lines_that_do_not_fit() {
 }
 
 #[test]
+fn a_cut_that_jumps_is_told_in_the_file_s_numbers() {
+    let patch = flat();
+    let mesh = mesh_kernel::TriMesh::new(patch.positions, patch.faces);
+    let options = FlattenMeshOptions { cuts: vec![vec![0, 1, 24]], ..FlattenMeshOptions::default() };
+    let refused = flatten_mesh(&mesh, &options).unwrap_err();
+    assert_eq!(refused, PatternError::CutNotAlongEdges { a: 1, b: 24 });
+    assert!(refused.to_string().contains("nodes 2 and 25"), "{refused}");
+}
+
+#[test]
+fn a_patch_too_large_to_be_drawn() {
+    let mut patch = flat();
+    patch.positions.iter_mut().for_each(|p| *p *= 1e200);
+    assert!(
+        make(&PatternInput { patches: vec![patch], ..PatternInput::default() }, &PatternOptions::default())
+            .is_err()
+    );
+}
+
+#[test]
 fn options_out_of_range() {
     let input = PatternInput { patches: vec![flat()], ..PatternInput::default() };
     for options in [
@@ -132,10 +152,12 @@ fn options_out_of_range() {
     ] {
         assert!(matches!(make(&input, &options).unwrap_err(), PatternError::BadOption { .. }));
     }
-    let mut patch = flat();
-    patch.piece.allowance_mm = -3.0;
-    let text = error(patch).to_string();
-    assert!(text.contains("front") && text.contains("-3"), "{text}");
+    for (allowance_mm, named) in [(-3.0, "-3"), (1e9, "1000000000"), (f64::NAN, "NaN")] {
+        let mut patch = flat();
+        patch.piece.allowance_mm = allowance_mm;
+        let text = error(patch).to_string();
+        assert!(text.contains("front") && text.contains(named), "{text}");
+    }
 }
 
 proptest::proptest! {
