@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use super::Unit;
+
 /// Why a mesh was refused.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
@@ -42,12 +44,24 @@ pub enum HumanError {
     },
     /// No unit makes a person of the mesh's height.
     #[error(
-        "the mesh is {height:.4} units high: as metres, centimetres or millimetres that is no person's height (0.5 m to \
-         2.5 m); scale the file or name its unit"
+        "the mesh is {height:.4} units high: in metres, centimetres or millimetres that is no person's height (0.5 m to \
+         2.5 m); say its unit, or scale it to one of these"
     )]
     Height {
         /// Extent along the body's axis, file units.
         height: f64,
+    },
+    /// The unit that was said makes no person of it.
+    #[error(
+        "the mesh is {height:.4} {} high, {:.2} m: that is no person's height (0.5 m to 2.5 m); its unit is another one",
+        .unit.plural(),
+        .height * .unit.millimetres() / 1000.0
+    )]
+    HeightInUnit {
+        /// Extent along the body's axis, in that unit.
+        height: f64,
+        /// The unit.
+        unit: Unit,
     },
     /// The shape is not that of an upright person or dress form.
     #[error("the mesh is not an upright human body or dress form: {reason}")]

@@ -37,6 +37,8 @@ pub enum Unit {
     Centimetre,
     /// 1 mm.
     Millimetre,
+    /// 25.4 mm; never told from a height, only said.
+    Inch,
 }
 
 impl Unit {
@@ -46,15 +48,27 @@ impl Unit {
             Self::Metre => 1000.0,
             Self::Centimetre => 10.0,
             Self::Millimetre => 1.0,
+            Self::Inch => 25.4,
         }
     }
 
-    /// `m`, `cm` or `mm`.
+    /// `m`, `cm`, `mm` or `in`.
     pub fn symbol(self) -> &'static str {
         match self {
             Self::Metre => "m",
             Self::Centimetre => "cm",
             Self::Millimetre => "mm",
+            Self::Inch => "in",
+        }
+    }
+
+    /// Its name for people, of more than one.
+    pub fn plural(self) -> &'static str {
+        match self {
+            Self::Metre => "metres",
+            Self::Centimetre => "centimetres",
+            Self::Millimetre => "millimetres",
+            Self::Inch => "inches",
         }
     }
 }
@@ -167,6 +181,15 @@ pub fn extract(raw: &TriMesh, options: &HumanOptions) -> Result<HumanBody, Human
 
     let mut warnings = Vec::new();
     let mut figure = figure::Figure::new(&surface, height);
+    let stature = joins::stature_guess(&figure);
+    if options.unit.is_none() && stature < SMALLEST {
+        warnings.push(format!(
+            "in {} the body is {stature:.0} mm tall, less than any that garments are made for: say its unit if it is another \
+             one, such as inches ({:.0} mm)",
+            unit.plural(),
+            stature * Unit::Inch.millimetres() / unit.millimetres()
+        ));
+    }
     let mut votes = facing::votes(&figure, &joins::Proportions::of(&figure));
     if let Some(wanted) = options.facing {
         votes = placement.rotation.transpose().mul_vec3(wanted).z;
@@ -239,6 +262,10 @@ fn features_of(
     }
     Ok(features)
 }
+
+/// Stature below which a body is smaller than what garments are made for, in millimetres: that of the smallest dress form,
+/// less what telling it from a form without a head may be off by.
+const SMALLEST: f64 = 0.95 * 10.0 * crate::dress_form::HEIGHT_RANGE[0];
 
 /// Residual of the mirror plane over the height above which the two sides do not belong to one person. Models and
 /// scans of people lie below 0.001, coarse meshes below 0.004.

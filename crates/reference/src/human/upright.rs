@@ -40,19 +40,20 @@ pub(crate) fn find(mesh: &TriMesh, options: &HumanOptions) -> Result<Upright, Hu
         Some(up) => vec![up.normalize()],
         None => vec![DVec3::Y, DVec3::Z, DVec3::X],
     };
-    let mut tallest = 0.0_f64;
-    let mut candidates = Vec::new();
-    for axis in axes {
-        let (low, high) = extent(mesh, axis);
-        let unit = options.unit.or_else(|| unit_of(high - low));
-        tallest = tallest.max(high - low);
-        candidates.extend(unit.map(|unit| (axis, low, high, unit)));
-    }
+    let extents: Vec<(f64, f64)> = axes.iter().map(|axis| extent(mesh, *axis)).collect();
+    let longest = extents.iter().map(|(low, high)| high - low).fold(0.0, f64::max);
+    let candidates: Vec<(DVec3, f64, f64, Unit)> = axes
+        .into_iter()
+        .zip(extents)
+        .filter(|(_, (low, high))| high - low > 0.45 * longest)
+        .filter_map(|(axis, (low, high))| Some((axis, low, high, unit_of(high - low, options.unit)?)))
+        .collect();
     if candidates.is_empty() {
-        return Err(HumanError::Height { height: tallest });
+        return Err(match options.unit {
+            Some(unit) => HumanError::HeightInUnit { height: longest, unit },
+            None => HumanError::Height { height: longest },
+        });
     }
-    let longest = candidates.iter().map(|c| c.2 - c.1).fold(0.0, f64::max);
-    candidates.retain(|c| c.2 - c.1 > 0.45 * longest);
     let looks: Vec<[Look; 2]> =
         candidates.par_iter().map(|&(axis, low, high, _)| look(mesh, axis, low, high)).collect();
     let mut best: Option<(f64, DVec3, Unit)> = None;
@@ -84,9 +85,12 @@ fn extent(mesh: &TriMesh, axis: DVec3) -> (f64, f64) {
     })
 }
 
-fn unit_of(extent: f64) -> Option<Unit> {
-    [Unit::Metre, Unit::Centimetre, Unit::Millimetre]
-        .into_iter()
+/// The unit in which an extent is a person's height: the one that was said, if it is.
+fn unit_of(extent: f64, said: Option<Unit>) -> Option<Unit> {
+    let units = said.map_or(&[Unit::Metre, Unit::Centimetre, Unit::Millimetre][..], |_| &[]);
+    said.iter()
+        .chain(units)
+        .copied()
         .find(|u| (HEIGHT_RANGE[0]..=HEIGHT_RANGE[1]).contains(&(extent * u.millimetres() / 1000.0)))
 }
 

@@ -185,6 +185,44 @@ fn dress_forms_are_bodies() {
     }
 }
 
+/// A dress form whose coordinates are in a unit of so many millimetres.
+fn form_in(millimetres: f64) -> TriMesh {
+    let options = FormOptions { triangles: 8_000, ..FormOptions::default() };
+    let form = DressForm::build(&presets()[0].measurements, &options).unwrap();
+    moved(&form.mesh, 1.0 / millimetres, DMat3::IDENTITY, DVec3::ZERO)
+}
+
+#[test]
+fn inches_are_taken_for_centimetres_with_a_warning_and_read_when_said() {
+    let first = features(&form_in(1.0));
+    assert!(first.features.warnings.iter().all(|w| !w.contains("inches")), "{:?}", first.features.warnings);
+    let inches = form_in(25.4);
+    let guessed = features(&inches);
+    assert_eq!(guessed.unit, Unit::Centimetre);
+    let said = format!("inches ({:.0} mm)", first.features.height);
+    assert!(guessed.features.warnings.iter().any(|w| w.contains(&said)), "{:?}", guessed.features.warnings);
+
+    let known =
+        extract(&inches, &HumanOptions { unit: Some(Unit::Inch), ..HumanOptions::default() }).unwrap();
+    assert!((known.girths["bust"] - first.girths["bust"]).abs() < 0.1);
+    assert!(known.features.warnings.iter().all(|w| !w.contains("inches")));
+    let p = known.placement.to_file(known.mesh.positions[7]);
+    assert!(p.distance(inches.positions[7]) < 1e-9);
+}
+
+#[test]
+fn other_units_are_refused_for_the_height() {
+    // Decimetres, feet: a foot's form is as wide as a person is high in metres, and that is no reason to lay it down.
+    for millimetres in [100.0, 304.8] {
+        let e = refused("a form in another unit", &form_in(millimetres));
+        assert!(matches!(e, HumanError::Height { .. }), "{e}");
+    }
+    let options = HumanOptions { unit: Some(Unit::Metre), ..HumanOptions::default() };
+    let e = extract(&form_in(100.0), &options).unwrap_err();
+    assert!(matches!(e, HumanError::HeightInUnit { unit: Unit::Metre, .. }), "{e}");
+    assert!(e.to_string().contains("metres high"), "{e}");
+}
+
 #[test]
 fn a_body_that_lies_where_up_is_known_is_refused() {
     let preset = &presets()[0];
