@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::lettering::{letter_height, lines};
+use super::lettering::{helvetica_width, lines, text_room};
 use crate::Piece;
 
 /// What a line means. Cutters map power and speed by colour, so every meaning has its own.
@@ -98,6 +98,11 @@ pub(crate) struct PieceDrawing {
     pub(crate) letters: Vec<Lettering>,
 }
 
+/// From line to line, in heights of capitals.
+const LINE: f64 = 1.3;
+/// How deep letters reach below their line, in heights of capitals.
+const DESCENDER: f64 = 0.3;
+
 /// Draws a piece at its place.
 pub(crate) fn draw(piece: &Piece, offset: DVec2, sample_size: &str) -> PieceDrawing {
     let mut strokes = Vec::new();
@@ -135,13 +140,17 @@ pub(crate) fn draw(piece: &Piece, offset: DVec2, sample_size: &str) -> PieceDraw
         add(Meaning::Fold, fold.clone(), false);
     }
     let lines = lines(piece, sample_size);
-    let height = letter_height(piece, &lines);
+    // Under the last line a descender's depth.
+    let tall = LINE * (lines.len() as f64 - 1.0) + 1.0 + DESCENDER;
+    let wide = lines.iter().map(|l| helvetica_width(l)).fold(0.0, f64::max);
+    let room = text_room(piece, DVec2::new(wide, tall));
+    let first = room.middle + offset + DVec2::Y * room.height * (0.5 * tall - 1.0);
     let letters = lines
         .into_iter()
         .enumerate()
         .map(|(i, text)| Lettering {
-            at: piece.text_at + offset - DVec2::new(0.0, 1.3 * height * (i as f64 - 0.5)),
-            height,
+            at: first - DVec2::Y * (LINE * room.height * i as f64),
+            height: room.height,
             text,
         })
         .collect();

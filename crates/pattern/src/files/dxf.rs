@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use glam::DVec2;
 
-use super::lettering::{letter_height, plain, plain_text};
+use super::lettering::{plain, plain_text, text_room};
 use crate::{Pattern, Piece};
 
 /// Whose reading of the standard.
@@ -82,6 +82,15 @@ mod layer {
     pub(super) const SEW_COPY: u8 = 87;
 }
 
+/// Advance of a letter of the standard's text, in heights; rough.
+const LETTER: f64 = 0.8;
+/// From line to line, in heights.
+const LINE: f64 = 1.5;
+/// How deep letters reach below their line, in heights.
+const DESCENDER: f64 = 0.3;
+/// Height of the style's text, in millimetres.
+const STYLE_HEIGHT: f64 = 10.0;
+
 /// Width of a slit notch as noted in files, in millimetres.
 const NOTCH_WIDTH: f64 = 0.5;
 
@@ -89,7 +98,8 @@ const NOTCH_WIDTH: f64 = 0.5;
 pub fn to_dxf(pattern: &Pattern, options: &DxfOptions) -> String {
     let mut w = Writer { out: String::new(), repeat_first: options.dialect == Dialect::Richpeace };
     let names = block_names(pattern, options);
-    w.header(pattern, options.dialect.version());
+    let style = style_text(options);
+    w.header(extent(pattern, &style), options.dialect.version());
     w.text(0, "SECTION");
     w.text(2, "BLOCKS");
     for (piece, name) in pattern.pieces.iter().zip(&names) {
@@ -104,7 +114,17 @@ pub fn to_dxf(pattern: &Pattern, options: &DxfOptions) -> String {
         w.text(2, name);
         w.point(*offset);
     }
-    let style = [
+    for (at, line) in &style {
+        w.lettering(*at, STYLE_HEIGHT, line);
+    }
+    w.text(0, "ENDSEC");
+    w.text(0, "EOF");
+    w.out
+}
+
+/// What is said about the style, below the pieces: where each line begins, and the line.
+fn style_text(options: &DxfOptions) -> Vec<(DVec2, String)> {
+    let entries = [
         ("Style Name", plain_text(&options.style_name)),
         ("Author", "toile".to_owned()),
         ("Product", "toile".to_owned()),
@@ -113,12 +133,17 @@ pub fn to_dxf(pattern: &Pattern, options: &DxfOptions) -> String {
         ("Grade Rule Table", String::new()),
         ("Units", "METRIC".to_owned()),
     ];
-    for (i, (key, value)) in style.iter().enumerate() {
-        w.lettering(DVec2::new(0.0, -20.0 - 15.0 * i as f64), 10.0, &format!("{key}: {value}"));
-    }
-    w.text(0, "ENDSEC");
-    w.text(0, "EOF");
-    w.out
+    let below = |i: usize| DVec2::new(0.0, -STYLE_HEIGHT * (2.0 + LINE * i as f64));
+    entries.iter().enumerate().map(|(i, (key, value))| (below(i), format!("{key}: {value}"))).collect()
+}
+
+/// Bounds of all pieces and the text about them.
+fn extent(pattern: &Pattern, style: &[(DVec2, String)]) -> [DVec2; 2] {
+    let whole = [DVec2::ZERO, DVec2::new(pattern.layout.width, pattern.layout.length)];
+    style.iter().fold(whole, |[low, high], (at, line)| {
+        let size = STYLE_HEIGHT * DVec2::new(LETTER * line.len() as f64, 1.0);
+        [low.min(*at - DVec2::Y * (DESCENDER * STYLE_HEIGHT)), high.max(*at + size)]
+    })
 }
 
 /// Unique conservative block names `PIECE_SIZE`.
@@ -168,17 +193,13 @@ impl Writer {
         self.real(20, p.y);
     }
 
-    fn header(&mut self, pattern: &Pattern, version: Option<&str>) {
+    fn header(&mut self, [low, high]: [DVec2; 2], version: Option<&str>) {
         self.text(0, "SECTION");
         self.text(2, "HEADER");
         if let Some(version) = version {
             self.text(9, "$ACADVER");
             self.text(1, version);
-            for (name, p) in [
-                ("$INSBASE", DVec2::ZERO),
-                ("$EXTMIN", DVec2::ZERO),
-                ("$EXTMAX", DVec2::new(pattern.layout.width, pattern.layout.length)),
-            ] {
+            for (name, p) in [("$INSBASE", DVec2::ZERO), ("$EXTMIN", low), ("$EXTMAX", high)] {
                 self.text(9, name);
                 self.point(p);
                 self.real(30, 0.0);
@@ -240,12 +261,14 @@ impl Writer {
             ("Material", plain_text(&piece.material)),
         ]
         .map(|(key, value)| format!("{key}: {value}"));
-        let height = letter_height(piece, &entries);
         let longest = entries.iter().map(String::len).max().unwrap_or(0) as f64;
+        let size = DVec2::new(LETTER * longest, LINE * (entries.len() as f64 - 1.0) + 1.0 + DESCENDER);
+        let room = text_room(piece, size);
+        // Text starts at its insertion point: at the left end of the longest line.
+        let first = room.middle + room.height * DVec2::new(-0.5 * size.x, 0.5 * size.y - 1.0);
         for (i, entry) in entries.iter().enumerate() {
-            // Text starts at its insertion point: half the longest line left of the middle.
-            let shift = DVec2::new(-0.4 * height * longest, -1.5 * height * (i as f64 - 2.5));
-            self.lettering(piece.text_at + shift, height, entry);
+            let down = DVec2::NEG_Y * (LINE * room.height * i as f64);
+            self.lettering(first + down, room.height, entry);
         }
         self.text(0, "ENDBLK");
         self.number(8, layer::BOUNDARY.into());

@@ -7,6 +7,7 @@ use glam::DVec2;
 use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, Str};
 
 use super::drawing::{Lettering, Meaning, PieceDrawing, Stroke, draw};
+use super::lettering::{CAPITALS, advance, touches};
 use crate::{
     Pattern,
     pieces::{bounds, inside, lay_out},
@@ -200,24 +201,6 @@ fn used_tiles(sheet: &Sheet, window: DVec2, step: DVec2) -> Vec<[usize; 2]> {
     tiles
 }
 
-/// Whether a segment has a point in a box (Liang–Barsky).
-fn touches(a: DVec2, b: DVec2, [low, high]: [DVec2; 2]) -> bool {
-    let d = b - a;
-    let (mut from, mut to) = (0.0f64, 1.0f64);
-    for axis in 0..2 {
-        if d[axis] == 0.0 {
-            if a[axis] < low[axis] || a[axis] > high[axis] {
-                return false;
-            }
-            continue;
-        }
-        let (s, t) = ((low[axis] - a[axis]) / d[axis], (high[axis] - a[axis]) / d[axis]);
-        from = from.max(s.min(t));
-        to = to.min(s.max(t));
-    }
-    from <= to
-}
-
 fn tile_content(
     sheet: &Sheet,
     options: &PdfOptions,
@@ -343,7 +326,7 @@ fn letters(content: &mut Content, at: DVec2, height: f64, text: &str, centred: b
     if bytes.is_empty() {
         return;
     }
-    let size = height / 0.72;
+    let size = height / CAPITALS;
     let width: f64 = bytes.iter().map(|&b| size * advance(b)).sum();
     let x = if centred { at.x - 0.5 * width } else { at.x };
     content.begin_text();
@@ -352,18 +335,6 @@ fn letters(content: &mut Content, at: DVec2, height: f64, text: &str, centred: b
     content.next_line(x as f32, at.y as f32);
     content.show(Str(&bytes));
     content.end_text();
-}
-
-/// Rough advance of Helvetica's letters, in ems.
-fn advance(byte: u8) -> f64 {
-    match byte {
-        b'i' | b'j' | b'l' | b'I' | b' ' | b'.' | b',' | b':' | b';' | b'f' | b't' | b'(' | b')' | b'-' => {
-            0.28
-        }
-        b'm' | b'w' | b'M' | b'W' => 0.83,
-        b'A'..=b'Z' => 0.68,
-        _ => 0.55,
-    }
 }
 
 struct Page {

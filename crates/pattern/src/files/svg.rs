@@ -5,6 +5,7 @@ use std::fmt::Write;
 use glam::DVec2;
 
 use super::drawing::{Meaning, draw};
+use super::lettering::CAPITALS;
 use crate::Pattern;
 
 /// Settings of [`to_svg`].
@@ -82,8 +83,7 @@ pub fn to_svg(pattern: &Pattern, options: &SvgOptions) -> String {
                  sans-serif\" text-anchor=\"middle\">{}</text>",
                 p.x,
                 p.y,
-                // Letters' height is that of capitals, some 0.72 of the size.
-                line.height / 0.72,
+                line.height / CAPITALS,
                 escaped(&line.text)
             );
         }

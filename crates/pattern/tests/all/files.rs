@@ -1,7 +1,7 @@
 //! Files: tokens of the DXF dialects, sizes of SVG and PDF, JSON that tells what is sewn to what.
 
 use crate::surfaces::{column, grid};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use pattern::*;
 
 fn sample() -> Pattern {
@@ -106,6 +106,76 @@ fn svg_is_in_millimetres_with_a_group_a_piece() {
         [("cut", "#ff0000"), ("sew", "#0000ff"), ("notch", "#ff00ff"), ("grain", "#008000")]
     {
         assert!(svg.contains(&format!("class=\"{class}\" fill=\"none\" stroke=\"{colour}\"")));
+    }
+}
+
+/// The value of an attribute of an element.
+fn attribute<'a>(element: &'a str, name: &str) -> &'a str {
+    let from = element.find(&format!(" {name}=\"")).unwrap() + name.len() + 3;
+    &element[from..from + element[from..].find('"').unwrap()]
+}
+
+#[test]
+fn text_crosses_no_line_of_its_piece() {
+    // A skirt's panel, whose grain line would have to pass the text, and a narrow one.
+    let panel = |name: &str, low: f64, high: f64| {
+        grid(name, 4, 12, |u, v| DVec3::new((u - 0.5) * (high + (low - high) * v), 600.0 * v, 0.0))
+    };
+    let patches = vec![panel("Skirt front", 130.0, 260.0), panel("Band", 45.0, 45.0)];
+    let input = PatternInput { patches, ..PatternInput::default() };
+    let pattern = make(&input, &PatternOptions::default()).unwrap();
+    let options = SvgOptions { sample_size: "MADE TO MEASURE".to_owned(), ..SvgOptions::default() };
+    let svg = to_svg(&pattern, &options);
+    for piece in svg.split("<g id=").skip(1) {
+        let paths: Vec<Vec<DVec2>> = piece
+            .split("<path ")
+            .skip(1)
+            .map(|path| {
+                let numbers: Vec<f64> = attribute(&format!(" {path}"), "d")
+                    .split(['M', 'L', 'Z', ' '])
+                    .filter_map(|word| word.parse().ok())
+                    .collect();
+                numbers.as_chunks::<2>().0.iter().map(|p| DVec2::from_array(*p)).collect()
+            })
+            .collect();
+        let texts: Vec<&str> = piece.split("<text").skip(1).collect();
+        assert_eq!(texts.len(), 3);
+        for text in texts {
+            let number = |name: &str| attribute(text, name).parse::<f64>().unwrap();
+            let said = &text[text.find('>').unwrap() + 1..text.find('<').unwrap()];
+            let size = number("font-size");
+            // Capitals are wider than this.
+            let half = 0.5 * 0.55 * size * said.chars().count() as f64;
+            let (x, y) = (number("x"), number("y"));
+            for w in paths.iter().flat_map(|p| p.windows(2)) {
+                for k in 0..=200 {
+                    let p = w[0].lerp(w[1], f64::from(k) / 200.0);
+                    let within = (p.x - x).abs() < half && p.y < y && p.y > y - 0.72 * size;
+                    assert!(!within, "{said:?} at {x} {y} is crossed at {p}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_extent_of_a_dxf_holds_its_text() {
+    let pattern = sample();
+    let dxf = to_dxf(&pattern, &DxfOptions { style_name: "long ".repeat(60), ..DxfOptions::default() });
+    let tokens = tokens(&dxf);
+    let corner = |name: &str| {
+        let at = tokens.iter().position(|t| *t == (9, name)).unwrap();
+        DVec2::new(tokens[at + 1].1.parse().unwrap(), tokens[at + 2].1.parse().unwrap())
+    };
+    let (low, high) = (corner("$EXTMIN"), corner("$EXTMAX"));
+    let entities = tokens.iter().rposition(|t| *t == (2, "ENTITIES")).unwrap();
+    let texts: Vec<_> = tokens[entities..].windows(7).filter(|w| w[0] == (0, "TEXT")).collect();
+    assert_eq!(texts.len(), 7);
+    for text in texts {
+        let number = |i: usize| text[i].1.parse::<f64>().unwrap();
+        let (at, height) = (DVec2::new(number(2), number(3)), number(4));
+        let end = at + DVec2::new(0.7 * height * text[6].1.len() as f64, height);
+        assert!(at.cmpge(low).all() && end.cmple(high).all(), "{text:?} in {low} {high}");
     }
 }
 
