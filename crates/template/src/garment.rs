@@ -7,7 +7,7 @@ use mesh_kernel::body::{Body, JointId, SurfaceId};
 
 use crate::collision::CollisionReport;
 use crate::format::{Grain, PieceSpec};
-use crate::layout::{Layout, LayoutLine, LayoutSurface};
+use crate::layout::{Layout, LayoutLine, LayoutSurface, swap_side};
 use crate::refine::{Refined, Tag};
 
 /// A template built on one body. Positions are millimetres in the frame of the reference mesh.
@@ -70,7 +70,7 @@ pub struct GarmentSurface {
 /// How a surface becomes a pattern piece, in nodes of the surface.
 #[derive(Clone, Debug)]
 pub struct GarmentPiece {
-    /// Name on the piece.
+    /// Name on the piece; pieces of a pair say their side where they would have the same name.
     pub label: String,
     /// How many to cut.
     pub quantity: u32,
@@ -259,7 +259,7 @@ pub(crate) fn marks(refined: &Refined, layout: &Layout) -> Vec<Mark> {
 }
 
 pub(crate) fn surfaces(refined: &Refined, layout: &Layout, lines: &[GarmentLine]) -> Vec<GarmentSurface> {
-    layout
+    let mut surfaces: Vec<GarmentSurface> = layout
         .surfaces
         .iter()
         .enumerate()
@@ -270,7 +270,26 @@ pub(crate) fn surfaces(refined: &Refined, layout: &Layout, lines: &[GarmentLine]
             layer: surface.layer,
             piece: piece(refined, layout, surface, s, lines),
         })
-        .collect()
+        .collect();
+    say_sides(&mut surfaces, layout);
+    surfaces
+}
+
+/// Adds the wearer's side to the printed names of a left and a right piece that have the same one.
+fn say_sides(surfaces: &mut [GarmentSurface], layout: &Layout) {
+    let other = |s: usize| {
+        let swapped = swap_side(&layout.surfaces[s].name);
+        let named = || layout.surfaces.iter().position(|o| Some(&o.name) == swapped.as_ref());
+        layout.surfaces[s].twin.map(|t| t as usize).or_else(named).filter(|t| *t != s)
+    };
+    let same: Vec<usize> = (0..surfaces.len())
+        .filter(|&s| other(s).is_some_and(|t| surfaces[s].piece.label == surfaces[t].piece.label))
+        .collect();
+    for s in same {
+        let side = if surfaces[s].name.starts_with("right_") { "right" } else { "left" };
+        let label = &mut surfaces[s].piece.label;
+        *label = format!("{label}, {side}");
+    }
 }
 
 /// Seam allowance where the template says nothing, mm.

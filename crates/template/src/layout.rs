@@ -80,7 +80,7 @@ pub(crate) struct Layout {
 }
 
 /// `left_` and `right_` swapped; `None` for a name that has no side.
-fn swap_side(name: &str) -> Option<String> {
+pub(crate) fn swap_side(name: &str) -> Option<String> {
     if let Some(rest) = name.strip_prefix("left_") {
         return Some(format!("right_{rest}"));
     }

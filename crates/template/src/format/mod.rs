@@ -404,7 +404,7 @@ pub struct EaseSpec {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PieceSpec {
-    /// Name on the piece; the surface's name when left out.
+    /// Name on the piece; the surface's name when left out. Pieces of a pair with one name get `left` and `right` after it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub label: Option<String>,
     /// How many to cut; 1 when left out.

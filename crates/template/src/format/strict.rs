@@ -133,6 +133,22 @@ impl<'de> Deserializer<'de> for Tracked<'de, '_> {
         visitor.visit_newtype_struct(self)
     }
 
+    /// What has names is written with them: lists in the fields' order are taken for mistakes.
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        fields: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Self::Error> {
+        if self.value.is_array() {
+            let names = fields.iter().take(3).map(|f| format!("`{f}`")).collect::<Vec<_>>().join(", ");
+            return Err(de::Error::custom(format!(
+                "this is a list; an object {{ … }} with named values such as {names} is wanted"
+            )));
+        }
+        self.deserialize_any(visitor)
+    }
+
     fn deserialize_enum<V: Visitor<'de>>(
         self,
         name: &'static str,
@@ -155,7 +171,7 @@ impl<'de> Deserializer<'de> for Tracked<'de, '_> {
 
     serde::forward_to_deserialize_any! {
         bool i8 i16 i32 i64 i128 u16 u64 u128 f32 char str string bytes byte_buf unit unit_struct seq tuple
-        tuple_struct map struct identifier ignored_any
+        tuple_struct map identifier ignored_any
     }
 }
 

@@ -15,6 +15,17 @@ fn error(from: &str, to: &str) -> String {
 }
 
 #[test]
+fn a_list_is_no_template() {
+    for text in ["[]", "[1, \"flap\", 1]"] {
+        let said = Template::from_json(text).unwrap_err().to_string();
+        assert!(
+            said.starts_with("template: this is a list; an object") && said.contains("toile_template"),
+            "{said}"
+        );
+    }
+}
+
+#[test]
 fn errors_name_the_place() {
     let cases = [
         (r#""name""#, r#""nmae""#, "nmae"),
@@ -34,6 +45,7 @@ fn errors_name_the_place() {
             r#"["a", "b", "cc"]"#,
             "surfaces.flap.faces[0]: there is no node `cc`; did you mean `c`?",
         ),
+        (r#"{ "at": "origin" }, "b""#, r#"["origin"], "b""#, "nodes.a: this is a list; an object"),
         (r#"["a", "b", "c"]"#, r#"["a", "b"]"#, "surfaces.flap.faces[0]"),
         (r#"["a", "b"] }"#, r#"["a"] }"#, "lines.edge.through"),
         (r#"["a", "b"] }"#, r#"["a", "b"], "shape": "wavy" }"#, "lines.edge.shape"),

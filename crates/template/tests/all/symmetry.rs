@@ -27,7 +27,10 @@ fn halves_are_mirror_images() {
     assert!(front.iter().any(|p| p.x == 0.0));
     let twin = garment.surfaces.iter().find(|s| s.name == "right_back").unwrap();
     assert_eq!(twin.mirrored_of.as_deref(), Some("left_back"));
-    assert_eq!(twin.piece.label, "Back");
+    // A pair has one name in the template, and the cutting room must tell them apart.
+    let labels = ["left_back", "right_back", "front"]
+        .map(|name| garment.surfaces.iter().find(|s| s.name == name).unwrap().piece.label.as_str());
+    assert_eq!(labels, ["Back, left", "Back, right", "front"]);
     assert_eq!(twin.piece.edges.len(), 1);
     assert_eq!(twin.piece.edges[0].allowance, 30.0);
 }
