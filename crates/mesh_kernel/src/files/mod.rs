@@ -2,7 +2,8 @@
 //!
 //! Coordinates come in exactly as the file holds them, whatever its unit; polygons are cut into triangles as fans.
 //! Every reader checks what it reads: a damaged file is a [`ReadError`] with the place, never a panic, and no memory is
-//! reserved on the word of a header. Writers make the whole file in memory; [`write_atomically`] puts it in place.
+//! reserved on the word of a header. Writers make the whole file in memory; [`write_atomically`] puts it in place, and
+//! [`FileSet`] several together.
 //!
 //! ```
 //! use mesh_kernel::files::{Format, WriteOptions, parse, to_bytes};
@@ -34,7 +35,7 @@ use crate::TriMesh;
 use glam::DVec3;
 
 pub use error::{Place, ReadError};
-pub use place::write_atomically;
+pub use place::{FileSet, NotPlaced, write_atomically};
 
 /// Most vertices, and most triangles, that a file may unfold to; beyond it 32-bit indices and memory end.
 pub const MAX_ELEMENTS: usize = 1 << 26;

@@ -3,3 +3,4 @@
 mod formats;
 mod obj;
 mod reference;
+mod sets;
