@@ -18,9 +18,12 @@ use viewer::RenderError;
 
 use crate::document::Document;
 use crate::garment_pattern::pattern_input;
-use crate::output::{OutputError, OutputFile, write_all};
+use crate::output::{OutputError, OutputFile, write_all_and};
 use crate::pictures::{garment_pictures, pattern_picture};
 use crate::report::Report;
+
+/// Name of the report among the results.
+const REPORT: &str = "report.json";
 
 /// Decimal places of a coordinate in millimetres in text files: a micrometre.
 const DECIMALS_MM: u8 = 3;
@@ -36,6 +39,8 @@ pub struct Settings {
     pub paper: Paper,
     /// Dialect of the DXF.
     pub dialect: Dialect,
+    /// Unit of the body's file; told from its height when `None`.
+    pub unit: Option<human::Unit>,
 }
 
 impl Default for Settings {
@@ -45,6 +50,7 @@ impl Default for Settings {
             sample_size: "MADE TO MEASURE".to_owned(),
             paper: Paper::default(),
             dialect: Dialect::default(),
+            unit: None,
         }
     }
 }
@@ -76,6 +82,21 @@ impl Artifact {
     /// What is written where nothing else is said: all that people use; a body is for programs.
     pub const DEFAULT: [Self; 8] =
         [Self::Obj, Self::Glb, Self::Dxf, Self::Svg, Self::Pdf, Self::Json, Self::Png, Self::Toile];
+
+    /// Names of the files that it is, in the folder of results.
+    pub fn file_names(self) -> &'static [&'static str] {
+        match self {
+            Self::Obj => &["garment.obj"],
+            Self::Glb => &["garment.glb"],
+            Self::Dxf => &["pattern.dxf"],
+            Self::Svg => &["pattern.svg"],
+            Self::Pdf => &["pattern.pdf"],
+            Self::Json => &["pattern.json"],
+            Self::Png => &["front.png", "back.png", "pattern.png"],
+            Self::Toile => &["design.toile"],
+            Self::Body => &["garment.body.json"],
+        }
+    }
 }
 
 /// Why a garment could not be rebuilt or written.
@@ -139,7 +160,7 @@ pub fn regenerate(
     let go_on = |step: &str| if progress(step) { Ok(()) } else { Err(RegenerateError::Cancelled) };
     go_on("finding the body's features")?;
     let started = Instant::now();
-    let body = human::extract(raw, &HumanOptions::default())?;
+    let body = human::extract(raw, &HumanOptions { unit: settings.unit, ..HumanOptions::default() })?;
     let features = started.elapsed().as_secs_f64();
     let mut made = regenerate_on(template, file, body, settings, progress)?;
     made.report.seconds.features = features;
@@ -269,7 +290,7 @@ impl Regenerated {
         Ok(files)
     }
 
-    /// Writes the files of the given kinds into `folder`, and `report.json` when all others are there.
+    /// Writes the files of the given kinds and `report.json` into `folder`: all of them, or none when one cannot be written.
     ///
     /// `started` is when the work began: the report's seconds count from then.
     ///
@@ -301,40 +322,40 @@ impl Regenerated {
         if !progress(ExportStep::Writing) {
             return Err(RegenerateError::Cancelled);
         }
-        write_all(folder, &files)?;
-        self.report.seconds.export = export.elapsed().as_secs_f64();
-        self.report.seconds.total = started.elapsed().as_secs_f64();
-        let mut bytes = serde_json::to_vec_pretty(&self.report).unwrap_or_default();
-        bytes.push(b'\n');
-        write_all(folder, &[OutputFile { name: "report.json".into(), bytes }])?;
-        Ok(())
+        // The report counts the time that writing takes.
+        let report = || {
+            self.report.seconds.export = export.elapsed().as_secs_f64();
+            self.report.seconds.total = started.elapsed().as_secs_f64();
+            let mut bytes = serde_json::to_vec_pretty(&self.report)
+                .map_err(|e| OutputError { path: folder.join(REPORT), source: e.into() })?;
+            bytes.push(b'\n');
+            Ok(OutputFile { name: REPORT.into(), bytes })
+        };
+        Ok(write_all_and(folder, &files, report)?)
     }
 
     fn make(&self, artifact: Artifact) -> Result<Vec<OutputFile>, RegenerateError> {
         let style_name = self.report.template.clone();
         let sample_size = self.settings.sample_size.clone();
-        let one = |name: &'static str, bytes: Vec<u8>| vec![OutputFile { name: name.into(), bytes }];
-        Ok(match artifact {
-            Artifact::Obj => one("garment.obj", self.garment_obj()),
-            Artifact::Glb => {
-                // Millimetres, y up: the format's metres are the writer's own default scale.
-                one("garment.glb", to_bytes(Format::Glb, &self.mesh, &WriteOptions::default()))
-            }
+        let contents = match artifact {
+            Artifact::Obj => vec![self.garment_obj()],
+            // Millimetres, y up: the format's metres are the writer's own default scale.
+            Artifact::Glb => vec![to_bytes(Format::Glb, &self.mesh, &WriteOptions::default())],
             Artifact::Dxf => {
                 let options = DxfOptions { dialect: self.settings.dialect, sample_size, style_name };
-                one("pattern.dxf", pattern::to_dxf(&self.pattern, &options).into_bytes())
+                vec![pattern::to_dxf(&self.pattern, &options).into_bytes()]
             }
             Artifact::Svg => {
                 let options = SvgOptions { title: style_name, sample_size };
-                one("pattern.svg", pattern::to_svg(&self.pattern, &options).into_bytes())
+                vec![pattern::to_svg(&self.pattern, &options).into_bytes()]
             }
             Artifact::Pdf => {
                 let options = PdfOptions { paper: self.settings.paper, title: style_name, sample_size };
-                one("pattern.pdf", pattern::to_pdf(&self.pattern, &options))
+                vec![pattern::to_pdf(&self.pattern, &options)]
             }
             Artifact::Json => {
                 let options = JsonOptions { style_name, sample_size };
-                one("pattern.json", pattern::to_json(&self.pattern, &options).into_bytes())
+                vec![pattern::to_json(&self.pattern, &options).into_bytes()]
             }
             Artifact::Png => {
                 let pictures = garment_pictures(
@@ -345,13 +366,13 @@ impl Regenerated {
                     &self.profile_lines(),
                 )?;
                 let pattern = pattern_picture(&self.pattern)?;
-                let named =
-                    [("front.png", &pictures.front), ("back.png", &pictures.back), ("pattern.png", &pattern)];
-                named.map(|(name, image)| OutputFile { name: name.into(), bytes: image.to_png() }).into()
+                [pictures.front, pictures.back, pattern].map(|image| image.to_png()).into()
             }
-            Artifact::Toile => one("design.toile", self.document.to_bytes()),
-            Artifact::Body => one("garment.body.json", self.garment.body.to_file_bytes()?),
-        })
+            Artifact::Toile => vec![self.document.to_bytes()],
+            Artifact::Body => vec![self.garment.body.to_file_bytes()?],
+        };
+        let named = artifact.file_names().iter().zip(contents);
+        Ok(named.map(|(&name, bytes)| OutputFile { name: name.into(), bytes }).collect())
     }
 
     /// The garment over the body's file: its unit, its axes.

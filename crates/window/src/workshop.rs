@@ -9,7 +9,7 @@ use design::deflate::{DeflateSettings, deflate};
 use design::modelling::model;
 use design::sheet_metal::{DrawingFormat, SheetReading, unfold};
 use design::thicken::{Settings, ThicknessWish, thicken};
-use design::units::guess_of_sheet;
+use design::units::FileUnit;
 use mesh_kernel::TriMesh;
 use mesh_kernel::files::{Format, read, write_atomically};
 use sheet::deflate::DeflateOptions;
@@ -142,11 +142,8 @@ pub(crate) fn unfold_to(sheet: &Path, thickness: f64, path: &Path, stop: &Stop) 
     } else {
         read(sheet).map_err(|e| about(&e))?
     };
-    let unit = match Format::of_path(sheet) {
-        _ if is_script => 1.0,
-        Some(Format::Glb) => 1000.0,
-        _ => guess_of_sheet(&mesh, thickness),
-    };
+    // A script's name is that of no mesh format.
+    let unit = FileUnit::of_sheet(None, Format::of_path(sheet), &mesh, thickness).millimetres;
     let options = UnfoldOptions {
         metal: Metal { thickness, inner_radius: thickness, k_factor: K_FACTOR, reference: Reference::Middle },
         relief: Relief { shape: ReliefShape::Rectangle, width: None, depth: None },

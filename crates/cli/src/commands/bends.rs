@@ -15,7 +15,7 @@ pub(crate) fn run(words: &Bends, speech: &Speech) -> Result<(), Failure> {
     let sheet = read_sheet(&words.sheet)?;
     speech.step("looking for ways to bend it");
     let reading = SheetReading {
-        unit: unit_of_sheet(words.unit, &words.sheet, &sheet, 0.0),
+        unit: unit_of_sheet(words.unit, &words.sheet, &sheet, 0.0).millimetres,
         rule: words.facets.rule(),
     };
     let mut report = bends(&sheet, &reading).map_err(|e| Failure::from(e).about(&words.sheet))?;

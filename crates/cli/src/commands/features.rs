@@ -1,30 +1,35 @@
 //! `toile features`: landmarks, feature curves and girths of a body.
 
+use std::path::Path;
+
 use design::pictures::features_picture;
 use reference::human::{self, HumanBody, HumanOptions};
 
-use super::{file_name, read_mesh, write};
+use super::{body_refusal, file_name, read_mesh, write_together};
 use crate::failure::Failure;
 use crate::speech::{Speech, table};
-use crate::words::Features;
+use crate::words::{Features, Unit};
 
 pub(crate) fn run(words: &Features, speech: &Speech) -> Result<(), Failure> {
     speech.step("reading");
     let mesh = read_mesh(&words.mesh)?;
     speech.step("finding features");
-    let body =
-        human::extract(&mesh, &HumanOptions::default()).map_err(|e| Failure::from(e).about(&words.mesh))?;
+    let options = HumanOptions { unit: words.unit.map(Unit::of_body), ..HumanOptions::default() };
+    let body = human::extract(&mesh, &options).map_err(|e| body_refusal(e, &words.mesh))?;
     let exported = body.exported();
+    let mut text = serde_json::to_string_pretty(&exported)?;
+    text.push('\n');
+    let mut files: Vec<(&Path, &[u8])> = Vec::new();
     if let Some(path) = &words.output {
-        let mut text = serde_json::to_string_pretty(&exported)?;
-        text.push('\n');
-        write(path, text.as_bytes())?;
+        files.push((path, text.as_bytes()));
     }
+    let picture;
     if let Some(path) = &words.picture {
         speech.step("drawing");
-        let picture = features_picture(&file_name(&words.mesh), &body.mesh, &body.features)?;
-        write(path, &picture.to_png())?;
+        picture = features_picture(&file_name(&words.mesh), &body.mesh, &body.features)?.to_png();
+        files.push((path, &picture));
     }
+    write_together(&files)?;
     for warning in &body.features.warnings {
         speech.warn(warning);
     }

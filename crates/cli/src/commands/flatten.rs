@@ -1,5 +1,6 @@
 //! `toile flatten`: any mesh to flat pieces.
 
+use design::units::FileUnit;
 use mesh_kernel::TriMesh;
 use mesh_kernel::files::{Format, WriteOptions, to_bytes};
 use mesh_kernel::glam::DVec3;
@@ -9,7 +10,7 @@ use serde::Serialize;
 use super::{extension, file_name, read_mesh, write};
 use crate::failure::Failure;
 use crate::speech::{Speech, table};
-use crate::words::Flatten;
+use crate::words::{Flatten, Unit};
 
 #[derive(Serialize)]
 struct Flattened {
@@ -17,6 +18,8 @@ struct Flattened {
     pieces: Vec<FlatPiece>,
     seams: usize,
     largest_mismatch: f64,
+    /// Millimetres in one unit of the mesh.
+    unit_mm: f64,
     warnings: Vec<String>,
 }
 
@@ -53,8 +56,9 @@ pub(crate) fn run(words: &Flatten, speech: &Speech) -> Result<(), Failure> {
             words.mesh.display()
         )));
     }
+    let unit = FileUnit::of_pieces(words.unit.map(Unit::millimetres), Format::of_path(&words.mesh), &mesh);
     for p in &mut mesh.positions {
-        *p *= words.unit.millimetres();
+        *p *= unit.millimetres;
     }
     speech.step("flattening");
     let options = FlattenMeshOptions { cuts, allowance_mm: words.allowance, ..FlattenMeshOptions::default() };
@@ -72,7 +76,8 @@ pub(crate) fn run(words: &Flatten, speech: &Speech) -> Result<(), Failure> {
         Kind::Obj => to_bytes(Format::Obj, &flat_mesh(&pattern), &WriteOptions::default()),
     };
     write(&words.output, &bytes)?;
-    for warning in &pattern.warnings {
+    let warnings: Vec<String> = unit.warning().into_iter().chain(pattern.warnings.iter().cloned()).collect();
+    for warning in &warnings {
         speech.warn(warning);
     }
     let done = Flattened {
@@ -84,7 +89,8 @@ pub(crate) fn run(words: &Flatten, speech: &Speech) -> Result<(), Failure> {
             .collect(),
         seams: pattern.seams.len(),
         largest_mismatch: pattern.seams.iter().map(|s| s.mismatch).fold(0.0, f64::max),
-        warnings: pattern.warnings.clone(),
+        unit_mm: unit.millimetres,
+        warnings,
     };
     speech.report(&done, || summary(&done))
 }

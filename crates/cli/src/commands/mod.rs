@@ -19,10 +19,11 @@ pub(crate) mod view;
 
 use std::path::Path;
 
-use design::units;
+use design::units::FileUnit;
 use mesh_kernel::TriMesh;
 use mesh_kernel::body::{BODY_FILE_EXTENSION, Body};
-use mesh_kernel::files::{self, Format};
+use mesh_kernel::files::{self, FileSet, Format};
+use reference::human::HumanError;
 
 use crate::failure::Failure;
 use crate::words::Unit;
@@ -30,6 +31,19 @@ use crate::words::Unit;
 /// Reads a mesh; the message names the file.
 fn read_mesh(path: &Path) -> Result<TriMesh, Failure> {
     files::read(path).map_err(|e| Failure::from(e).about(path))
+}
+
+/// Why a mesh is no body to be measured, and what can be done.
+fn body_refusal(error: HumanError, path: &Path) -> Failure {
+    let remedy = match &error {
+        HumanError::Height { .. } => Some("--unit inch takes it for one in inches"),
+        _ => None,
+    };
+    let failure = Failure::from(error).about(path);
+    match remedy {
+        Some(remedy) => failure.remedy(remedy),
+        None => failure,
+    }
 }
 
 /// Reads a body: a native body file, or a mesh whose groups are its surfaces. The message names the file.
@@ -60,14 +74,21 @@ fn script_sheet(path: &Path) -> Result<TriMesh, Failure> {
     Ok(mesh)
 }
 
-/// Millimetres in one unit of a sheet: said, told by the format, or guessed from its size and thickness.
-fn unit_of_sheet(said: Option<Unit>, path: &Path, sheet: &TriMesh, thickness: f64) -> f64 {
-    match said {
-        Some(unit) => unit.millimetres(),
-        None if is_body_file(path) || extension(path) == "json" => 1.0,
-        None if Format::of_path(path) == Some(Format::Glb) => 1000.0,
-        None => units::guess_of_sheet(sheet, thickness),
-    }
+/// Reads a text, without the byte-order mark that some editors put before it; `what` it is, for the message.
+fn read_text(what: &str, path: &Path) -> Result<String, Failure> {
+    let text = std::fs::read_to_string(path)
+        .map_err(|e| Failure::new(format!("cannot read {what} {}: {e}", path.display())))?;
+    Ok(text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text))
+}
+
+/// The unit of a sheet: said, told by the format, or guessed from its size and thickness.
+fn unit_of_sheet(said: Option<Unit>, path: &Path, sheet: &TriMesh, thickness: f64) -> FileUnit {
+    FileUnit::of_sheet(said.map(Unit::millimetres), mesh_format(path), sheet, thickness)
+}
+
+/// The format of a mesh file; `None` for a native body and a script, whose numbers are millimetres.
+fn mesh_format(path: &Path) -> Option<Format> {
+    if is_body_file(path) { None } else { Format::of_path(path) }
 }
 
 /// Whether the name is that of a native body file.
@@ -77,12 +98,20 @@ fn is_body_file(path: &Path) -> bool {
 
 /// Writes a file whole or not at all.
 fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    if let Some(folder) = path.parent().filter(|f| !f.as_os_str().is_empty()) {
-        std::fs::create_dir_all(folder)
-            .map_err(|e| Failure::new(format!("cannot make the folder {}: {e}", folder.display())))?;
+    write_together(&[(path, bytes)])
+}
+
+/// Writes files that belong together: all of them, or none when one cannot be written.
+fn write_together(files: &[(&Path, &[u8])]) -> Result<(), Failure> {
+    let mut set = FileSet::default();
+    for (path, bytes) in files {
+        if let Some(folder) = path.parent().filter(|f| !f.as_os_str().is_empty()) {
+            std::fs::create_dir_all(folder)
+                .map_err(|e| Failure::new(format!("cannot make the folder {}: {e}", folder.display())))?;
+        }
+        set.add(path, bytes)?;
     }
-    files::write_atomically(path, bytes)
-        .map_err(|e| Failure::new(format!("cannot write {}: {e}", path.display())))
+    Ok(set.place()?)
 }
 
 /// The extension in lower case.

@@ -6,7 +6,7 @@ use std::time::Instant;
 use design::modelling::{ModelReport, Modelled, ReadingReport, TouchingReport, model};
 use mesh_kernel::files::{Format, WriteOptions, to_bytes};
 
-use super::write;
+use super::{read_text, write};
 use crate::failure::Failure;
 use crate::speech::{Speech, table};
 use crate::words::ModelScript;
@@ -38,8 +38,7 @@ pub(crate) fn run(words: &ModelScript, speech: &Speech) -> Result<(), Failure> {
 
 /// Reads and runs a script; messages name the file, the line and the command.
 pub(super) fn run_script(path: &Path) -> Result<Modelled, Failure> {
-    let text = std::fs::read_to_string(path)
-        .map_err(|e| Failure::new(format!("cannot read the script {}: {e}", path.display())))?;
+    let text = read_text("the script", path)?;
     model(&text).map_err(|e| Failure::from(e).about(path))
 }
 

@@ -3,14 +3,14 @@
 use std::path::Path;
 use std::time::Instant;
 
-use design::regenerate::{Artifact, Regenerated, Settings, regenerate};
+use design::regenerate::{Artifact, RegenerateError, Regenerated, Settings, regenerate};
 use design::report::Report;
-use template::Template;
+use template::{Template, TemplateError};
 
-use super::{file_name, read_mesh};
+use super::{body_refusal, file_name, read_mesh, read_text};
 use crate::failure::Failure;
 use crate::speech::{Speech, table};
-use crate::words::{Build, Dialect, Format, Paper, Regenerate};
+use crate::words::{Build, Dialect, Format, Paper, Regenerate, Unit};
 
 pub(crate) fn run(words: &Regenerate, speech: &Speech) -> Result<(), Failure> {
     let started = Instant::now();
@@ -22,7 +22,7 @@ pub(crate) fn run(words: &Regenerate, speech: &Speech) -> Result<(), Failure> {
         speech.step(step);
         true
     });
-    let mut built: Regenerated = built.map_err(|e| Failure::from(e).about(&words.body))?;
+    let mut built: Regenerated = built.map_err(|e| refusal(e, words))?;
     built.report.seconds.load = load;
     speech.step("writing");
     built.write(&words.out, &artifacts(&words.build), started)?;
@@ -32,10 +32,21 @@ pub(crate) fn run(words: &Regenerate, speech: &Speech) -> Result<(), Failure> {
     speech.report(&built.report, || summary(&built.report, &words.out))
 }
 
+/// What was wrong, and with which file.
+fn refusal(error: RegenerateError, words: &Regenerate) -> Failure {
+    match error {
+        RegenerateError::Body(e) => body_refusal(e, &words.body),
+        RegenerateError::Template(e @ TemplateError::BadReference(_)) => Failure::from(e).about(&words.body),
+        RegenerateError::Template(e) => Failure::from(e).about(&words.template),
+        // What it says names a piece, which is the template's on this body.
+        RegenerateError::Pattern(e) => Failure::from(e).about(&words.template),
+        e => e.into(),
+    }
+}
+
 pub(crate) fn read_template(path: &Path) -> Result<Template, Failure> {
-    let text = std::fs::read_to_string(path)
-        .map_err(|e| Failure::new(format!("cannot read the template {}: {e}", path.display())))?;
-    Template::from_json(&text).map_err(|e| Failure::from(e).about(path))
+    let text = read_text("the template", path)?;
+    design::draft::template_of(&text).map_err(|e| Failure::from(e).about(path))
 }
 
 pub(crate) fn settings(words: &Build) -> Settings {
@@ -56,6 +67,7 @@ pub(crate) fn settings(words: &Build) -> Settings {
             Dialect::Clo => pattern::Dialect::Clo,
             Dialect::Richpeace => pattern::Dialect::Richpeace,
         },
+        unit: words.unit.map(Unit::of_body),
     }
 }
 

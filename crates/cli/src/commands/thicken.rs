@@ -9,7 +9,7 @@ use design::thicken::{
 use mesh_kernel::files::Format;
 use sheet::thicken::{Corners, PlaceKind, Side, Step, Watcher};
 
-use super::{file_name, is_body_file, read_sheet, write};
+use super::{file_name, mesh_format, read_sheet, read_text, write};
 use crate::failure::Failure;
 use crate::speech::{Speech, table};
 use crate::words::{FoldCorners, Thicken, Unit, WallSide};
@@ -34,7 +34,7 @@ pub(crate) fn run(words: &Thicken, speech: &Speech) -> Result<(), Failure> {
         chord: words.chord,
         mitre_limit: words.mitre_limit,
         unit: words.unit.map(Unit::millimetres),
-        read_from: if is_body_file(&words.sheet) { None } else { Format::of_path(&words.sheet) },
+        read_from: mesh_format(&words.sheet),
         format,
     };
     let made = thicken(&sheet, &settings, &Steps { speech });
@@ -57,8 +57,7 @@ fn thickness(words: &Thicken) -> Result<ThicknessWish, Failure> {
             named: words.patch_thickness.clone(),
         });
     };
-    let text = std::fs::read_to_string(path)
-        .map_err(|e| Failure::new(format!("cannot read the thicknesses {}: {e}", path.display())))?;
+    let text = read_text("the thicknesses", path)?;
     Ok(ThicknessWish::Listed(list_from_json(&text).map_err(|e| Failure::from(e).about(path))?))
 }
 

@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use design::sheet_metal::{DrawingFormat, SheetReading, UnfoldFileReport, mid_surface, unfold};
+use design::units::FileUnit;
 use mesh_kernel::TriMesh;
 use mesh_kernel::files::Format;
 use sheet::deflate::Nobody;
@@ -23,6 +24,7 @@ pub(crate) fn run(words: &Unfold, speech: &Speech) -> Result<(), Failure> {
     };
     speech.step("reading");
     let (sheet, thickness, unit) = sheet_of(words, speech)?;
+    let unit_warning = unit.warning();
     let options = UnfoldOptions {
         metal: Metal {
             thickness,
@@ -46,12 +48,13 @@ pub(crate) fn run(words: &Unfold, speech: &Speech) -> Result<(), Failure> {
         effort: Effort::default(),
         gap: 10.0,
     };
-    let reading = SheetReading { unit, rule: FacetRule::Planes };
+    let reading = SheetReading { unit: unit.millimetres, rule: FacetRule::Planes };
     speech.step("looking for a flat sheet that does not lie on itself");
     let made = unfold(&sheet, &reading, &options, format, &file_name(&words.sheet));
     let mut made = made.map_err(|e| Failure::from(e).about(&words.sheet))?;
     speech.step("writing");
     write(&words.output, &made.bytes)?;
+    made.report.warnings.splice(0..0, unit_warning);
     made.report.file = words.output.display().to_string();
     made.report.seconds = started.elapsed().as_secs_f64();
     for warning in &made.report.warnings {
@@ -61,7 +64,7 @@ pub(crate) fn run(words: &Unfold, speech: &Speech) -> Result<(), Failure> {
 }
 
 /// The sheet, its thickness and its unit; of a solid all three are found.
-fn sheet_of(words: &Unfold, speech: &Speech) -> Result<(TriMesh, f64, f64), Failure> {
+fn sheet_of(words: &Unfold, speech: &Speech) -> Result<(TriMesh, f64, FileUnit), Failure> {
     if !words.from_solid {
         let sheet = read_sheet(&words.sheet)?;
         let thickness = words.thickness.unwrap_or(0.0);
@@ -69,12 +72,11 @@ fn sheet_of(words: &Unfold, speech: &Speech) -> Result<(TriMesh, f64, f64), Fail
         return Ok((sheet, thickness, unit));
     }
     let solid = read_mesh(&words.sheet)?;
-    let is_glb = Format::of_path(&words.sheet) == Some(Format::Glb);
-    let unit = words.unit.map_or(if is_glb { 1000.0 } else { 1.0 }, Unit::millimetres);
+    let unit = FileUnit::of_format(words.unit.map(Unit::millimetres), Format::of_path(&words.sheet));
     speech.step("looking for the middle of its walls");
-    let made = mid_surface(&solid, unit, &Nobody);
+    let made = mid_surface(&solid, unit.millimetres, &Nobody);
     let (sheet, thickness) = made.map_err(|e| Failure::from(e).about(&words.sheet))?;
-    Ok((sheet, thickness, 1.0))
+    Ok((sheet, thickness, FileUnit { millimetres: 1.0, guessed: false }))
 }
 
 fn summary(r: &UnfoldFileReport) -> String {

@@ -23,12 +23,15 @@ pub(crate) enum Format {
 
 /// Rebuild a template on a body: features, surfaces, patterns, files.
 ///
+/// The template may also be a design that was rebuilt before (design.toile) or drawn in the window (.toile): what counts is the
+/// template in it.
+///
 /// Example: toile regenerate samples/princess-dress.json --body samples/form-12.obj --out out/dress
 #[derive(Debug, Args)]
 pub(crate) struct Regenerate {
-    /// The feature template (JSON).
+    /// The feature template (JSON), or a design with one (.toile).
     pub(crate) template: PathBuf,
-    /// The body: OBJ, PLY, STL, OFF or GLB, in metres, centimetres or millimetres.
+    /// The body: OBJ, PLY, STL, OFF or GLB.
     #[arg(long, value_name = "MESH")]
     pub(crate) body: PathBuf,
     /// Folder for the results; made when missing.
@@ -56,6 +59,9 @@ pub(crate) struct Build {
     /// Whose habits the DXF follows.
     #[arg(long, value_enum, default_value_t = Dialect::Astm)]
     pub(crate) dxf: Dialect,
+    /// Unit of the body's file. Default: told from the height (metres, centimetres, millimetres).
+    #[arg(long, value_enum)]
+    pub(crate) unit: Option<Unit>,
 }
 
 /// Sheets of the PDF.
@@ -84,7 +90,7 @@ pub(crate) enum Dialect {
 /// Example: toile batch samples/princess-dress.json --bodies scans/ --out out/
 #[derive(Debug, Args)]
 pub(crate) struct Batch {
-    /// The feature template (JSON).
+    /// The feature template (JSON), or a design with one (.toile).
     pub(crate) template: PathBuf,
     /// A folder of meshes, or a text file with one path a line.
     #[arg(long, value_name = "DIR_OR_LIST")]
@@ -115,6 +121,9 @@ pub(crate) struct Features {
     /// Draw them over the body, from the front, the side and the back.
     #[arg(long, value_name = "FILE.png")]
     pub(crate) picture: Option<PathBuf>,
+    /// Unit of the body. Default: told from its height (metres, centimetres, millimetres).
+    #[arg(long, value_enum)]
+    pub(crate) unit: Option<Unit>,
 }
 
 /// Make a dress form from tape measurements (centimetres).
@@ -215,10 +224,10 @@ pub(crate) struct Flatten {
     /// Chains of node numbers (from 1, as in the OBJ) to cut along: "3-17-9;4-5".
     #[arg(long, value_name = "CHAINS")]
     pub(crate) cut: Option<String>,
-    /// Seam allowance in millimetres.
+    /// Seam allowance in millimetres, at most 10000.
     #[arg(long, value_name = "MM", default_value_t = 0.0)]
     pub(crate) allowance: f64,
-    /// Unit of the mesh.
-    #[arg(long, value_enum, default_value_t = Unit::Mm)]
-    pub(crate) unit: Unit,
+    /// Unit of the mesh. Default: metres for GLB; else millimetres, or metres where it is only a few units large.
+    #[arg(long, value_enum)]
+    pub(crate) unit: Option<Unit>,
 }

@@ -92,6 +92,16 @@ impl Unit {
             Self::Inch => 25.4,
         }
     }
+
+    /// The same for a body.
+    pub(crate) fn of_body(self) -> reference::human::Unit {
+        match self {
+            Self::Mm => reference::human::Unit::Millimetre,
+            Self::Cm => reference::human::Unit::Centimetre,
+            Self::M => reference::human::Unit::Metre,
+            Self::Inch => reference::human::Unit::Inch,
+        }
+    }
 }
 
 /// A length that something can have.

@@ -103,6 +103,53 @@ fn units_and_cuts_of_flatten() {
 }
 
 #[test]
+fn flatten_takes_the_units_that_other_commands_take() {
+    let folder = Folder::new("flatten-defaults");
+    let model = folder.write("sheets.obj", three_sheets(2));
+    let flat = folder.join("flat.svg");
+    let area = |mesh: &Path, more: &[&str]| {
+        let words = ["flatten", word(mesh), "-o", word(&flat), "--json"];
+        let said = toile(&[&words[..], more].concat()).succeeded();
+        let report = said.json();
+        let drawn = std::fs::read_to_string(&flat).unwrap();
+        assert!(!drawn.contains("inf") && !drawn.contains("NaN"), "{drawn}");
+        (number(&report["pieces"][0]["area_2d"]), said.stderr.contains("metres"))
+    };
+    assert_eq!(area(&model, &[]), (area(&model, &["--unit", "mm"]).0, false));
+    // GLB is in metres by its standard.
+    let [metres, millimetres] = ["solid.glb", "solid.obj"].map(|name| {
+        let solid = folder.join(name);
+        toile(&["thicken", word(&model), "--thickness", "1", "-o", word(&solid)]).succeeded();
+        area(&solid, &[]).0
+    });
+    assert!((metres / millimetres - 1.0).abs() < 1e-3, "{metres} {millimetres}");
+    let sheet = |name: &str, size: f64| {
+        let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let nodes: String =
+            corners.iter().map(|c| format!("v {} {} 0\n", c[0] * size, c[1] * size)).collect();
+        folder.write(name, nodes + "f 1 2 3 4\n")
+    };
+    // No piece is a millimetre large: that is a garment in metres, and said so.
+    let (large, guessed) = area(&sheet("garment.obj", 1.0), &[]);
+    assert!((large - 1e6).abs() < 1e-3 && guessed);
+    let (tiny, guessed) = area(&sheet("tiny.obj", 1.0), &["--unit", "mm"]);
+    assert!((tiny - 1.0).abs() < 1e-9 && !guessed);
+    area(&sheet("tiny.obj", 1.0), &["--unit", "mm", "--allowance", "0.1"]);
+}
+
+#[test]
+fn flatten_refuses_in_the_user_s_words() {
+    let folder = Folder::new("flatten-words");
+    let model = folder.write("sheets.obj", three_sheets(4));
+    let flat = folder.join("flat.svg");
+    let words = ["flatten", word(&model), "-o", word(&flat)];
+    // Nodes are counted from 1, as in the file and in the call.
+    toile(&[&words[..], &["--cut", "5-60"]].concat()).refused(1, "nodes 5 and 60");
+    toile(&[&words[..], &["--allowance", "1e9"]].concat()).refused(1, "10000");
+    assert!(!flat.exists());
+}
+
+#[test]
 fn pictures_have_the_asked_size_and_differ_by_view() {
     let folder = Folder::new("render");
     let model = folder.write("sheets.obj", three_sheets(4));

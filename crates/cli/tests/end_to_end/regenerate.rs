@@ -219,9 +219,76 @@ fn levels_and_size_names_do_what_they_say() {
 #[test]
 fn a_regenerated_design_is_a_template_again() {
     let folder = Folder::new("again");
-    let first = folder.join("first");
-    let words = ["--formats", "toile,json", "--levels", "2"];
+    let (first, second) = (folder.join("first"), folder.join("second"));
+    let words = ["--formats", "toile,obj", "--levels", "2"];
     let call = ["regenerate", word(dress()), "--body", word(form()), "--out", word(&first)];
     toile(&[&call[..], &words].concat()).succeeded();
-    assert!(first.join("design.toile").is_file());
+    let design = first.join("design.toile");
+    // The levels are the design's.
+    let call = ["regenerate", word(&design), "--body", word(form()), "--out", word(&second)];
+    toile(&[&call[..], &["--formats", "obj"]].concat()).succeeded();
+    assert!(read(&first.join("garment.obj")) == read(&second.join("garment.obj")));
+}
+
+#[test]
+fn results_are_written_together() {
+    let folder = Folder::new("together");
+    let out = folder.join("out");
+    std::fs::create_dir_all(out.join("pattern.svg")).unwrap();
+    std::fs::write(out.join("garment.obj"), "old").unwrap();
+    let words = ["regenerate", word(dress()), "--body", word(form()), "--out", word(&out)];
+    toile(&[&words[..], &["--formats", "obj,svg", "--levels", "2"]].concat()).refused(1, "pattern.svg");
+    assert_eq!(std::fs::read(out.join("garment.obj")).unwrap(), b"old");
+    assert_eq!(list(&out), ["garment.obj", "pattern.svg/"]);
+}
+
+#[test]
+fn mistakes_are_said_of_the_file_that_makes_them() {
+    let folder = Folder::new("mistakes");
+    let text = std::fs::read_to_string(dress()).unwrap();
+    let template = folder.write("no-such-curve.json", text.replace("\"waist\"", "\"wrist\""));
+    let out = folder.join("out");
+    let call = |template: &Path, body: &Path| {
+        toile(&["regenerate", word(template), "--body", word(body), "--out", word(&out)])
+    };
+    let said = call(&template, form()).refused(1, "wrist").stderr;
+    assert!(said.starts_with(&format!("error: {}", template.display())), "{said}");
+    let list = folder.write("list.json", "[]");
+    call(&list, form()).refused(1, "this is a list");
+    let body = folder.write("ball.obj", crate::fixtures::ball());
+    let said = call(dress(), &body).refused(1, "upright").stderr;
+    assert!(said.starts_with(&format!("error: {}", body.display())), "{said}");
+    assert!(!out.exists());
+}
+
+#[test]
+fn a_body_in_inches_is_warned_of_and_read_when_said() {
+    let folder = Folder::new("inches");
+    let mesh = read(form());
+    let mut text = String::new();
+    for p in &mesh.positions {
+        text.push_str(&format!("v {:.5} {:.5} {:.5}\n", p.x / 25.4, p.y / 25.4, p.z / 25.4));
+    }
+    for f in &mesh.faces {
+        text.push_str(&format!("f {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1));
+    }
+    let body = folder.write("inches.obj", text);
+    let said = toile(&["features", word(&body)]).succeeded();
+    assert!(said.stderr.contains("inches"), "{}", said.stderr);
+    let out = folder.join("out");
+    let words = ["regenerate", word(dress()), "--body", word(&body), "--out", word(&out), "--json"];
+    let more = ["--formats", "obj", "--levels", "2", "--unit", "inch"];
+    let report = toile(&[&words[..], &more].concat()).succeeded().json();
+    assert_eq!(report["body"]["units_guessed"], "in");
+    let height = number(&toile(&["features", word(form()), "--json"]).succeeded().json()["height"]);
+    assert!((number(&report["body"]["height"]) - height).abs() < 1.0);
+    // Decimetres are no unit of a body; what can be done is said, and is there.
+    let metres: String = mesh.positions.iter().fold(String::new(), |text, p| {
+        text + &format!("v {:.5} {:.5} {:.5}\n", p.x / 100.0, p.y / 100.0, p.z / 100.0)
+    });
+    let faces: String =
+        mesh.faces.iter().map(|f| format!("f {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1)).collect();
+    let body = folder.write("decimetres.obj", metres + &faces);
+    toile(&["features", word(&body)]).refused(1, "--unit");
+    toile(&["features", word(&body), "--unit", "m"]).refused(1, "metres high");
 }

@@ -94,4 +94,7 @@ pub enum DraftFileError {
     /// A design of `regenerate`.
     #[error(transparent)]
     Document(#[from] crate::document::DocumentError),
+    /// A template, which a file of another kind may hold.
+    #[error(transparent)]
+    Template(#[from] TemplateError),
 }

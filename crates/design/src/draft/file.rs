@@ -32,6 +32,34 @@ impl FileKind {
     }
 }
 
+/// The template in a text: that alone, or the one in a design of `regenerate` or in a draft.
+///
+/// Messages about a template alone say where in it.
+///
+/// # Errors
+/// [`DraftFileError`].
+pub fn template_of(text: &str) -> Result<Template, DraftFileError> {
+    #[derive(Deserialize)]
+    struct Head {
+        toile_draft: Option<u64>,
+        toile_design: Option<u64>,
+    }
+    // A list would be read in the fields' order.
+    let head =
+        if text.trim_start().starts_with('{') { serde_json::from_str::<Head>(text).ok() } else { None };
+    match head {
+        Some(Head { toile_design: Some(_), .. }) => {
+            let design = Document::from_bytes(text.as_bytes())?;
+            let level = design.levels.unwrap_or(design.template.level);
+            Ok(Template::from_file(TemplateFile { level, ..design.template })?)
+        }
+        Some(Head { toile_draft: Some(_), .. }) => {
+            Ok(Template::from_file(Draft::from_bytes(text.as_bytes())?.template)?)
+        }
+        _ => Ok(Template::from_json(text)?),
+    }
+}
+
 #[derive(Serialize, Deserialize)]
 struct DraftFile {
     toile_draft: u32,

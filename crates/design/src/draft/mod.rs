@@ -28,7 +28,7 @@ pub use body::{BodySource, DraggedForm, MEASURES, Mesh, OnBody, measure, set_mea
 pub use build::{BuildError, preview, with_drawn_features};
 pub use edit::Edit;
 pub use error::{DraftFileError, EditError};
-pub use file::{DRAFT_VERSION, FileKind};
+pub use file::{DRAFT_VERSION, FileKind, template_of};
 pub use history::{Command, History};
 pub use rename::Named;
 pub use topology::{edges, faces, joints};

@@ -15,7 +15,7 @@ use mesh_kernel::files::{Format, WriteOptions, to_bytes};
 use mesh_kernel::merge::{MergeError, MergeOptions};
 use sheet::thicken::{Corners, Origin, Side, Step, ThickenError, ThickenOptions, Watcher};
 
-use crate::units;
+use crate::units::FileUnit;
 
 pub use report::{NamedPlace, Roles, SheetFacts, ThickenFileReport};
 pub use thickness::{ThicknessError, ThicknessWish, list_from_json};
@@ -84,10 +84,8 @@ pub fn thicken(
     watcher: &dyn Watcher,
 ) -> Result<ThickenedFile, ThickenFileError> {
     let clock = Clock::new(watcher);
-    let (mut warnings, unit) = (Vec::new(), unit(sheet, settings));
-    if let Some(warning) = unit.warning {
-        warnings.push(warning);
-    }
+    let unit = FileUnit::of_sheet(settings.unit, settings.read_from, sheet, settings.thickness.thickest());
+    let warnings: Vec<String> = unit.warning().into_iter().collect();
     let unit = unit.millimetres;
     let (mut mesh, thickness) = settings.thickness.on(sheet)?;
     mesh.positions.iter_mut().for_each(|p| *p *= unit);
@@ -132,29 +130,6 @@ fn refusal(source: ThickenError, sheet: &TriMesh) -> ThickenFileError {
         }
         _ => ThickenFileError::Sheet(source),
     }
-}
-
-/// A unit, and what is to be said about it.
-struct UnitOfSheet {
-    millimetres: f64,
-    warning: Option<String>,
-}
-
-fn unit(sheet: &TriMesh, settings: &Settings) -> UnitOfSheet {
-    let millimetres = match (settings.unit, settings.read_from) {
-        (Some(unit), _) => unit,
-        (None, Some(Format::Glb)) => 1000.0,
-        (None, None) => 1.0,
-        (None, Some(_)) => {
-            let millimetres = units::guess_of_sheet(sheet, settings.thickness.thickest());
-            let warning = (millimetres != 1.0).then(|| {
-                "the sheet's file does not say its unit and is taken to be in metres, as garments are; --unit says otherwise"
-                    .to_owned()
-            });
-            return UnitOfSheet { millimetres, warning };
-        }
-    };
-    UnitOfSheet { millimetres, warning: None }
 }
 
 /// Passes on to a watcher and keeps the time that each step took.
