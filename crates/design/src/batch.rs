@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use mesh_kernel::files;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 use template::Template;
 
 use crate::fingerprint::Fingerprint;
@@ -45,6 +45,14 @@ impl Shard {
     pub fn has(self, index: usize) -> bool {
         index % self.of == self.part - 1
     }
+
+    /// Name of the file that lists what became of its bodies.
+    fn list_name(self) -> String {
+        match self {
+            Self { of: 1, .. } => "batch.json".to_owned(),
+            Self { part, of } => format!("batch-{part}-of-{of}.json"),
+        }
+    }
 }
 
 impl Default for Shard {
@@ -75,7 +83,8 @@ impl Batch {
 pub struct BatchBody {
     /// Name of its folder of results.
     pub name: String,
-    /// The mesh file.
+    /// The mesh file; in JSON what of its name is no text becomes `\u{fffd}`.
+    #[serde(serialize_with = "as_text")]
     pub file: PathBuf,
     /// How it went.
     pub state: BodyState,
@@ -86,6 +95,11 @@ pub struct BatchBody {
     pub warnings: usize,
     /// Wall-clock seconds.
     pub seconds: f64,
+}
+
+/// Names of files are bytes, and JSON is text.
+fn as_text<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(&path.to_string_lossy())
 }
 
 /// How a body of a batch went.
@@ -125,7 +139,7 @@ pub fn finished(report: &[u8], fingerprint: &str) -> Option<usize> {
 /// Rebuilds `template` on every body of the shard, bodies in parallel, each into a folder of its own under `out`.
 ///
 /// A folder is named after its file; files of one name from different folders are numbered in the list's order. A body
-/// whose folder holds the report of the same inputs is kept as it is. `progress` hears how many of how many are done.
+/// whose folder holds the report of the same inputs, and all files that are wanted, is kept as it is. `progress` hears how many of how many are done.
 /// `batch.json` (with more than one shard `batch-I-of-N.json`) lists what became of them.
 ///
 /// # Errors
@@ -161,11 +175,9 @@ pub fn run_batch(
         })
         .collect();
     let batch = Batch { template: template.file().name.clone(), bodies: results };
-    let name = match options.shard {
-        Shard { of: 1, .. } => "batch.json".to_owned(),
-        Shard { part, of } => format!("batch-{part}-of-{of}.json"),
-    };
-    let bytes = serde_json::to_vec_pretty(&batch).unwrap_or_default();
+    let name = options.shard.list_name();
+    let bytes = serde_json::to_vec_pretty(&batch)
+        .map_err(|e| OutputError { path: out.join(&name), source: e.into() })?;
     write_all(out, &[OutputFile { name: name.into(), bytes }])?;
     Ok(batch)
 }
@@ -189,6 +201,7 @@ fn one(
     if !options.again
         && let Ok(text) = std::fs::read(folder.join("report.json"))
         && let Some(warnings) = finished(&text, &fingerprint)
+        && options.artifacts.iter().flat_map(|a| a.file_names()).all(|name| folder.join(name).is_file())
     {
         return Ok((BodyState::Kept, warnings));
     }
@@ -203,24 +216,33 @@ fn one(
     Ok((BodyState::Built, built.report.warnings.len()))
 }
 
-/// Folder names: the files' stems; a stem that comes again gets a number.
+/// Folder names: the files' stems; a stem that comes again gets a number, and so does what the batch names its own list.
 fn folder_names(bodies: &[PathBuf]) -> Vec<String> {
     let mut seen: BTreeMap<String, usize> = BTreeMap::new();
-    let stem =
-        |p: &PathBuf| p.file_stem().map_or_else(|| "body".to_owned(), |s| s.to_string_lossy().into_owned());
-    let stems: Vec<String> = bodies.iter().map(stem).collect();
+    let stems: Vec<String> = bodies.iter().map(|p| stem(p)).collect();
     let mut names: Vec<String> = Vec::with_capacity(stems.len());
     for stem in &stems {
         let count = seen.entry(stem.clone()).or_insert(0);
         *count += 1;
         let mut name = if *count == 1 { stem.clone() } else { format!("{stem}-{count}") };
-        while names.contains(&name) || (*count > 1 && stems.contains(&name)) {
+        while names.contains(&name) || is_list(&name) || (*count > 1 && stems.contains(&name)) {
             *count += 1;
             name = format!("{stem}-{count}");
         }
         names.push(name);
     }
     names
+}
+
+/// A file's name without its extension; one of dots alone, which would be another folder's name, is `body`.
+fn stem(path: &Path) -> String {
+    let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    if stem.chars().all(|c| c == '.') { "body".to_owned() } else { stem }
+}
+
+/// Whether a batch may write its list under that name, whatever the number of shards.
+fn is_list(name: &str) -> bool {
+    name == "batch.json" || name.starts_with("batch-") && name.ends_with(".json")
 }
 
 #[cfg(test)]
@@ -248,5 +270,18 @@ mod tests {
         unique.dedup();
         assert_eq!(unique.len(), bodies.len(), "{names:?}");
         assert_eq!((names[0].as_str(), names[2].as_str()), ("x", "x-2"));
+    }
+
+    #[test]
+    fn folders_lie_within_the_folder_of_results() {
+        let bodies: Vec<PathBuf> =
+            ["a/...obj", "a/..obj", "batch.json.obj", "batch-1-of-2.json.ply", "..", "body.off"]
+                .iter()
+                .map(PathBuf::from)
+                .collect();
+        assert_eq!(
+            folder_names(&bodies),
+            ["body", "body-2", "batch.json-2", "batch-1-of-2.json-2", "body-3", "body-4"]
+        );
     }
 }

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use design::batch::{Batch, BatchOptions, Shard, run_batch};
 
+use super::read_text;
 use super::regenerate::{artifacts, read_template, settings};
 use crate::failure::Failure;
 use crate::speech::{Speech, table};
@@ -42,7 +43,7 @@ fn bodies(place: &Path) -> Result<Vec<PathBuf>, Failure> {
         }
         found.sort();
     } else {
-        let text = std::fs::read_to_string(place).map_err(unreadable)?;
+        let text = read_text("the list of bodies", place)?;
         found = listed(&text, place.parent().unwrap_or(Path::new("")));
     }
     if found.is_empty() {

@@ -107,3 +107,47 @@ fn lists_that_name_nothing_are_refused() {
     let report = batch(&folder.write("list.txt", "nowhere.obj\n"), &out, &[]).refused(1, "1 of 1").json();
     assert_eq!(states(&report), pairs(&[("nowhere", "failed")]));
 }
+
+#[test]
+#[cfg(unix)]
+fn names_that_are_no_text_are_reported_as_far_as_they_are() {
+    use std::os::unix::ffi::OsStrExt as _;
+    let folder = Folder::new("odd-names");
+    let bodies = folder.join("bodies");
+    std::fs::create_dir(&bodies).unwrap();
+    std::fs::write(bodies.join(std::ffi::OsStr::from_bytes(b"x\xff.obj")), "v 0 0 0\n").unwrap();
+    let out = folder.join("out");
+    let said = batch(&bodies, &out, &[]).refused(1, "1 of 1").json();
+    assert_eq!(states(&said), pairs(&[("x\u{fffd}", "failed")]));
+    let written: Value = serde_json::from_slice(&std::fs::read(out.join("batch.json")).unwrap()).unwrap();
+    assert_eq!(said, written);
+}
+
+#[test]
+fn results_stay_within_their_folder() {
+    let folder = Folder::new("dotted");
+    let bodies = folder.join("bodies");
+    std::fs::create_dir(&bodies).unwrap();
+    for name in ["...obj", "batch.json.obj"] {
+        std::fs::copy(form(), bodies.join(name)).unwrap();
+    }
+    let out = folder.join("deep/out");
+    batch(&bodies, &out, &[]).succeeded();
+    assert_eq!(list(&folder.join("deep")), ["out/"]);
+    assert_eq!(list(&out), ["batch.json", "batch.json-2/", "body/"]);
+}
+
+#[test]
+fn a_body_whose_results_are_gone_is_built_again() {
+    let folder = Folder::new("gone");
+    // Lists of some editors begin with a mark of the byte order.
+    let list = folder.write("list.txt", "\u{feff}one.obj\n");
+    std::fs::copy(form(), folder.join("one.obj")).unwrap();
+    let out = folder.join("out");
+    let state = || states(&batch(&list, &out, &[]).succeeded().json());
+    assert_eq!(state(), pairs(&[("one", "built")]));
+    assert_eq!(state(), pairs(&[("one", "kept")]));
+    std::fs::remove_file(out.join("one/garment.obj")).unwrap();
+    assert_eq!(state(), pairs(&[("one", "built")]));
+    assert!(out.join("one/garment.obj").is_file());
+}
