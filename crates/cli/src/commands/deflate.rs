@@ -9,7 +9,7 @@ use design::deflate::{
 use mesh_kernel::files::Format;
 use sheet::deflate::{DeflateError, DeflateOptions, Step, Steps, Watcher};
 
-use super::{extension, read_mesh, write};
+use super::{extension, read_mesh, write_together};
 use crate::failure::Failure;
 use crate::speech::{Speech, table};
 use crate::words::{Deflate, ShellElement, ShellSections, ThicknessSteps, Unit};
@@ -29,13 +29,14 @@ pub(crate) fn run(words: &Deflate, speech: &Speech) -> Result<(), Failure> {
     let made = deflate(&solid, &settings, &Telling { speech });
     let mut made = made.map_err(|e| refusal(e, &words.solid))?;
     speech.step("writing");
-    write(&words.output, &made.sheet)?;
-    write(&words.output.with_extension("thickness.json"), &made.thickness)?;
+    let thickness = words.output.with_extension("thickness.json");
+    let mut files: Vec<(&Path, &[u8])> = vec![(&words.output, &made.sheet), (&thickness, &made.thickness)];
     for (path, bytes) in [(&words.inp, &made.inp), (&words.vtk, &made.vtk), (&words.picture, &made.picture)] {
         if let (Some(path), Some(bytes)) = (path, bytes) {
-            write(path, bytes)?;
+            files.push((path, bytes));
         }
     }
+    write_together(&files)?;
     made.report.file = words.output.display().to_string();
     made.report.seconds = started.elapsed().as_secs_f64();
     for warning in &made.report.warnings {
@@ -51,7 +52,7 @@ fn settings(words: &Deflate, format: Format) -> DeflateSettings {
             max_thickness: words.max_thickness,
             max_draft: words.max_draft.map_or(defaults.max_draft, f64::to_radians),
             simplify: words.simplify,
-            keep: words.keep.iter().map(|k| k.saturating_sub(1)).collect(),
+            keep: words.keep.iter().map(|k| *k as usize - 1).collect(),
             steps: match words.steps {
                 ThicknessSteps::Joined => Steps::Joined,
                 ThicknessSteps::Apart => Steps::Apart,

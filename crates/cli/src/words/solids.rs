@@ -30,8 +30,8 @@ pub(crate) struct Deflate {
     #[arg(long, value_name = "MM", value_parser = positive, allow_hyphen_values = true)]
     pub(crate) simplify: Option<f64>,
     /// Keep a feature although it is small: its number in the list, from 1; may be given again.
-    #[arg(long, value_name = "NUMBER")]
-    pub(crate) keep: Vec<usize>,
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) keep: Vec<u32>,
     /// Where to write the sheet (OBJ, PLY, STL, OFF or GLB).
     #[arg(short, long, value_name = "SHEET")]
     pub(crate) output: PathBuf,

@@ -218,3 +218,24 @@ fn shared_solids_have_their_true_middles() {
         }
     }
 }
+
+#[test]
+fn numbers_that_cannot_be_met_are_refused() {
+    let folder = Folder::new("deflate-numbers");
+    let solid = folder.write("tee.obj", tee(40.0, 1.0));
+    let sheet = folder.join("sheet.obj");
+    let call = |more: &[&str]| {
+        let words = ["deflate", word(&solid), "-o", word(&sheet)];
+        toile(&[&words[..], more].concat())
+    };
+    // What belongs together is written together.
+    let inp = folder.join("taken.inp");
+    std::fs::create_dir(&inp).unwrap();
+    call(&["--inp", word(&inp)]).refused(1, "taken.inp");
+    call(&["--keep", "0"]).refused(2, "--keep");
+    call(&["--keep", "99"]).refused(1, "no feature 99");
+    for length in ["0.01", "1e-6"] {
+        call(&["--edge-length", length]).refused(1, "mm or more");
+    }
+    assert_eq!(folder.list(), ["taken.inp/", "tee.obj"]);
+}

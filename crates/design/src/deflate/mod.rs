@@ -10,10 +10,12 @@ mod vtk;
 
 use mesh_kernel::TriMesh;
 use mesh_kernel::files::{Format, WriteOptions, to_bytes};
+use mesh_kernel::glam::DVec3;
 use sheet::deflate::{DeflateError, DeflateOptions, Watcher};
 use viewer::View;
 
 use crate::pictures::{ModelColor, ModelPicture, ModelPictureError, model_picture};
+use crate::units::FileUnit;
 
 pub use inp::{Element, InpOptions, Sections};
 pub use report::DeflateFileReport;
@@ -46,10 +48,35 @@ pub enum DeflateFileError {
     /// Nothing is left of the solid.
     #[error("no mid-surface is left of the solid: none of its walls has an opposite one")]
     Nothing,
+    /// A feature that is to be kept and is none.
+    #[error("there is no feature {number} to keep: the solid has {features} small ones, counted from 1")]
+    NoSuchFeature {
+        /// Its number, from 1.
+        number: usize,
+        /// How many there are.
+        features: usize,
+    },
+    /// The edge length asks for more triangles than are made.
+    #[error(
+        "edges of {edge_length} mm would make some {triangles:.1e} triangles of this solid, and more than {most:.0e} are not \
+         made; give edges of {shortest} mm or more",
+        most = MOST_TRIANGLES
+    )]
+    TooFine {
+        /// As asked, in millimetres.
+        edge_length: f64,
+        /// About how many triangles it asks for.
+        triangles: f64,
+        /// About the shortest that can be had, in millimetres.
+        shortest: f64,
+    },
     /// The picture could not be made.
     #[error("the picture: {0}")]
     Picture(#[from] ModelPictureError),
 }
+
+/// Most triangles that a mid-surface is meshed with.
+const MOST_TRIANGLES: f64 = 8e6;
 
 /// A mid-surface, ready to be written.
 #[derive(Clone, Debug)]
@@ -78,11 +105,17 @@ pub fn deflate(
     settings: &DeflateSettings,
     watcher: &dyn Watcher,
 ) -> Result<DeflatedFile, DeflateFileError> {
-    let guessed = if settings.read_from == Some(Format::Glb) { 1000.0 } else { 1.0 };
-    let unit = settings.unit.unwrap_or(guessed);
+    let unit = FileUnit::of_format(settings.unit, settings.read_from).millimetres;
     let mut scaled = TriMesh::new(solid.positions.clone(), solid.faces.clone());
     scaled.positions.iter_mut().for_each(|p| *p *= unit);
+    if let Some(edge_length) = settings.options.edge_length {
+        check_length(&scaled, edge_length)?;
+    }
     let deflated = sheet::deflate::deflate(&scaled, &settings.options, watcher)?;
+    let features = deflated.report.features.len();
+    if let Some(feature) = settings.options.keep.iter().find(|k| **k >= features) {
+        return Err(DeflateFileError::NoSuchFeature { number: feature + 1, features });
+    }
     if deflated.sheet.faces.is_empty() {
         return Err(DeflateFileError::Nothing);
     }
@@ -99,6 +132,23 @@ pub fn deflate(
         picture,
         report: DeflateFileReport::new(solid.faces.len(), unit, &deflated),
     })
+}
+
+/// Whether a mid-surface, which has half the area of the solid's skin, can be meshed with edges of that length.
+fn check_length(solid: &TriMesh, edge_length: f64) -> Result<(), DeflateFileError> {
+    /// Area of a triangle over the square of its edges' length.
+    const EVEN: f64 = 0.433;
+    let place = |v: u32| solid.positions.get(v as usize).copied().unwrap_or_default();
+    let area = |[a, b, c]: [DVec3; 3]| 0.5 * (b - a).cross(c - a).length();
+    let skin: f64 = solid.faces.iter().map(|f| area(f.map(place))).sum();
+    let triangles = 0.5 * skin / (EVEN * edge_length * edge_length);
+    if triangles > MOST_TRIANGLES {
+        // Two digits, a little more than the limit: a length that people type.
+        let least = 1.05 * edge_length * (triangles / MOST_TRIANGLES).sqrt();
+        let shortest = format!("{least:.1e}").parse().unwrap_or(least);
+        return Err(DeflateFileError::TooFine { edge_length, triangles, shortest });
+    }
+    Ok(())
 }
 
 /// One number a line, so that lists can be compared.
