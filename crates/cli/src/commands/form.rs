@@ -1,12 +1,14 @@
 //! `toile form`: a dress form from tape measurements.
 
+use std::path::Path;
+
 use design::pictures;
 use mesh_kernel::files::{Format, WriteOptions, to_bytes};
 use reference::dress_form::{DressForm, Figure, FormOptions, Measurements, Resolved, presets};
 use reference::human::{self, HumanOptions};
 use serde::Serialize;
 
-use super::{file_name, write};
+use super::{file_name, read_text, write_together};
 use crate::failure::Failure;
 use crate::speech::{Speech, table};
 use crate::words;
@@ -37,13 +39,16 @@ pub(crate) fn run(words: &words::Form, speech: &Speech) -> Result<(), Failure> {
     let features_path = output.with_extension("features.json");
     let mut text = serde_json::to_string_pretty(&features)?;
     text.push('\n');
-    write(&features_path, text.as_bytes())?;
     let options = WriteOptions { decimals: Some(DECIMALS), ..WriteOptions::default() };
-    write(output, &to_bytes(format, &form.mesh, &options))?;
+    let mesh = to_bytes(format, &form.mesh, &options);
+    let mut files: Vec<(&Path, &[u8])> = vec![(output, &mesh), (&features_path, text.as_bytes())];
+    let picture;
     if let Some(path) = &words.picture {
         speech.step("drawing");
-        write(path, &pictures::body_picture(&file_name(output), &form.mesh)?.to_png())?;
+        picture = pictures::body_picture(&file_name(output), &form.mesh)?.to_png();
+        files.push((path, &picture));
     }
+    write_together(&files)?;
     let made = Made {
         file: output.display().to_string(),
         features: features_path.display().to_string(),
@@ -54,8 +59,10 @@ pub(crate) fn run(words: &words::Form, speech: &Speech) -> Result<(), Failure> {
         let rows: Vec<Vec<String>> = pairs(&made.measurements)
             .into_iter()
             .map(|(name, cm)| {
+                // A neck is measured where collars sit, and `neck` is the narrowest girth above.
+                let girth = if name == "neck" { "neck_base" } else { name.as_str() };
                 let found =
-                    features.girths.get(&name).map_or_else(String::new, |mm| format!("{:.1}", mm / 10.0));
+                    features.girths.get(girth).map_or_else(String::new, |mm| format!("{:.1}", mm / 10.0));
                 vec![name, format!("{cm:.1}"), found]
             })
             .collect();
@@ -83,8 +90,13 @@ fn measurements(words: &words::Form) -> Result<Measurements, Failure> {
         }
     };
     if let Some(path) = &words.measurements {
-        let text = std::fs::read_to_string(path)
-            .map_err(|e| Failure::new(format!("cannot read the measurements {}: {e}", path.display())))?;
+        let text = read_text("the measurements", path)?;
+        // Lists would be taken for measurements in some order.
+        if text.trim_start().starts_with('[') {
+            return Err(Failure::new("this is a list; measurements have names")
+                .about(path)
+                .remedy("write an object such as {\"bust\": 92, \"waist\": 74}, in centimetres"));
+        }
         let given: Measurements = serde_json::from_str(&text).map_err(|e| Failure::from(e).about(path))?;
         all.figure = given.figure;
         for (mine, theirs) in fields(&mut all).into_iter().zip(fields(&mut given.clone())) {

@@ -150,11 +150,41 @@ fn impossible_measurements_are_refused_with_the_reason() {
         ("words.json", "{\"bust\": \"wide\"}"),
         ("unknown.json", "{\"bosom\": 90}"),
         ("cut.json", "{\"bust\""),
+        ("list.json", "[\"woman\", 168, 92]"),
+        ("empty-list.json", "[]"),
     ] {
         let file = folder.write(name, text);
         toile(&["form", "--measurements", word(&file), "-o", word(&path)]).refused(1, name);
     }
     assert!(!path.exists());
+}
+
+#[test]
+fn a_form_that_cannot_be_written_leaves_the_old_features() {
+    let folder = Folder::new("form-taken");
+    let path = folder.join("form.obj");
+    std::fs::create_dir(&path).unwrap();
+    let features = folder.write("form.features.json", "old");
+    toile(&["form", "-o", word(&path)]).refused(1, "form.obj");
+    assert_eq!(std::fs::read(&features).unwrap(), b"old");
+    assert_eq!(folder.list(), ["form.features.json", "form.obj/"]);
+}
+
+#[test]
+fn the_table_compares_a_measurement_with_the_same_girth() {
+    let folder = Folder::new("form-table");
+    let path = folder.join("form.obj");
+    let words = ["form", "--bust", "98.4", "--waist", "81.9", "--hip", "105.4", "--height", "168"];
+    let said = toile(&[&words[..], &["-o", word(&path)]].concat()).succeeded().stdout;
+    let row = |name: &str| -> Vec<f64> {
+        let line = said.lines().find(|l| l.trim_start().starts_with(name)).unwrap();
+        line.split_whitespace().skip(1).map(|x| x.parse().unwrap()).collect()
+    };
+    // The neck is measured at its base.
+    for name in ["bust", "waist", "hip", "neck"] {
+        let [form, found] = row(name)[..] else { panic!("{name}: {said}") };
+        assert!((form - found).abs() < 1.5, "{name}: {form} and {found}");
+    }
 }
 
 #[test]
