@@ -11,7 +11,7 @@ use design::sheet_metal::{DrawingFormat, SheetReading, unfold};
 use design::thicken::{Settings, ThicknessWish, thicken};
 use design::units::FileUnit;
 use mesh_kernel::TriMesh;
-use mesh_kernel::files::{Format, read, write_atomically};
+use mesh_kernel::files::{FileSet, Format, NotPlaced, read};
 use sheet::deflate::DeflateOptions;
 use sheet::facets::FacetRule;
 use sheet::thicken::{Corners, Side};
@@ -71,11 +71,17 @@ fn format_of(path: &Path, what: &str) -> Result<Format, String> {
     Format::of_path(path).ok_or_else(|| format!("the {what}'s name must end in {MODELS}"))
 }
 
-fn written(path: &Path, bytes: &[u8], stop: &Stop) -> Result<(), String> {
+/// Writes all of the files, or none.
+fn written(files: &[(&Path, &[u8])], stop: &Stop) -> Result<(), String> {
     if !stop.may_write() {
         return Err("stopped".to_owned());
     }
-    write_atomically(path, bytes).map_err(|e| format!("{} could not be written: {e}", path.display()))
+    let told = |e: NotPlaced| format!("{} could not be written: {}", e.path.display(), e.source);
+    let mut set = FileSet::default();
+    for (path, bytes) in files {
+        set.add(path, bytes).map_err(told)?;
+    }
+    set.place().map_err(told)
 }
 
 /// Makes a solid of the garment, `thickness` mm thick, and writes it.
@@ -94,7 +100,7 @@ pub(crate) fn thicken_to(mesh: &TriMesh, thickness: f64, path: &Path, stop: &Sto
         format: format_of(path, "solid")?,
     };
     let made = thicken(mesh, &settings, stop).map_err(|e| e.to_string())?;
-    written(path, &made.bytes, stop)?;
+    written(&[(path, &made.bytes)], stop)?;
     Ok(format!("solid of {} triangles written to {}", made.report.faces, path.display()))
 }
 
@@ -115,8 +121,8 @@ pub(crate) fn deflate_to(solid: &Path, path: &Path, stop: &Stop) -> Result<Strin
     };
     let mesh = read(solid).map_err(|e| about(&e))?;
     let made = deflate(&mesh, &settings, stop).map_err(|e| about(&e))?;
-    written(path, &made.sheet, stop)?;
-    written(&path.with_extension("thickness.json"), &made.thickness, stop)?;
+    let thickness = path.with_extension("thickness.json");
+    written(&[(path, &made.sheet), (&thickness, &made.thickness)], stop)?;
     let report = &made.report;
     let text = format!("mid-surface of {} patches written to {}", report.patches, path.display());
     Ok(report.warnings.iter().fold(text, |text, warning| format!("{text}; {warning}")))
@@ -153,7 +159,7 @@ pub(crate) fn unfold_to(sheet: &Path, thickness: f64, path: &Path, stop: &Stop) 
     let name = sheet.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
     let reading = SheetReading { unit, rule: FacetRule::Planes };
     let made = unfold(&mesh, &reading, &options, format, &name).map_err(|e| about(&e))?;
-    written(path, &made.bytes, stop)?;
+    written(&[(path, &made.bytes)], stop)?;
     let report = &made.report;
     let text = format!(
         "{} plates with {} bends, {} lines welded, written to {}",
