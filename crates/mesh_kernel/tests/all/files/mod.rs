@@ -2,5 +2,6 @@
 
 mod formats;
 mod obj;
+mod place;
 mod reference;
 mod sets;
