@@ -99,7 +99,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("a dress of 11648 triangles on a body of {}", form.faces.len());
     draft.body = Arc::new(BodySource::Mesh(Mesh { file: "form".to_owned(), positions, faces: form.faces }));
     let state = std::env::temp_dir().join(format!("toile-orbit-{}", std::process::id()));
-    let designer = Designer::new(Start { draft, file: None, state });
+    let designer = Designer::new(Start { state, ..Start::new(draft) });
     let mut native = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default().with_inner_size([1280.0, 800.0]),
         depth_buffer: 24,

@@ -5,10 +5,14 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use design::draft::{Command, Draft, Edit, EditError, FileKind, History, Recovery, recoveries, state_folder};
+use design::draft::{
+    Command, Draft, Edit, EditError, FileKind, History, Journal, Recovery, SourceFile, recoveries,
+    state_folder,
+};
 use design::regenerate::Regenerated;
 use eframe::egui;
 use eframe::glow;
+use mesh_kernel::TriMesh;
 
 use crate::actions::remedy;
 use crate::board::Board;
@@ -22,7 +26,7 @@ use crate::preferences::{Preferences, Theme};
 pub(crate) use crate::prompts::Prompt;
 use crate::region::Region;
 use crate::selection::{Element, Mode};
-use crate::session::{OnDisk, Session};
+use crate::session::Session;
 use crate::tools::{Drawing, Effect, Event, Machine, Tool, World};
 use crate::view::pick::Picker;
 use crate::view::scene::{Look, Section};
@@ -36,6 +40,8 @@ pub struct Start {
     pub draft: Draft,
     /// The file that it came from, and what that is.
     pub file: Option<(PathBuf, FileKind)>,
+    /// The mesh that the design's body was read from, with its groups: shown as it is when it is no body.
+    pub model: Option<TriMesh>,
     /// Where work in progress and choices are kept.
     pub state: PathBuf,
 }
@@ -43,7 +49,7 @@ pub struct Start {
 impl Start {
     /// A design without a file, with the state where it usually is.
     pub fn new(draft: Draft) -> Self {
-        Self { draft, file: None, state: state_folder() }
+        Self { draft, file: None, model: None, state: state_folder() }
     }
 }
 
@@ -90,6 +96,8 @@ pub struct Designer {
     /// A folder to export to as soon as the garment is built.
     pub(crate) export_to: Option<PathBuf>,
     pub(crate) state: PathBuf,
+    /// The mesh of the first body, with its groups.
+    pub(crate) first_mesh: Option<TriMesh>,
     pub(crate) may_close: bool,
     /// What the eye turns about while it is turned.
     pub(crate) pivot: Option<glam::DVec3>,
@@ -108,7 +116,10 @@ impl Designer {
     pub fn new(start: Start) -> Self {
         let preferences = Preferences::load(&start.state);
         let found = recoveries(&start.state);
-        let file = start.file.map(|(path, kind)| OnDisk { path, kind });
+        let file = start.file.map(|(path, kind)| match std::fs::read(&path) {
+            Ok(bytes) => SourceFile::holding(path, kind, &bytes),
+            Err(_) => SourceFile { path, kind, fingerprint: None },
+        });
         let mut designer = Self {
             session: Session::new(History::new(start.draft), file, true, &start.state),
             model: Model::default(),
@@ -136,6 +147,7 @@ impl Designer {
             file_job: None,
             export_to: None,
             state: start.state,
+            first_mesh: start.model,
             may_close: false,
             pivot: None,
             stale: Stale::Whole,
@@ -182,11 +194,11 @@ impl Designer {
         is_latest && self.model.cloth.as_ref().is_some_and(|c| c.made.is_some())
     }
 
-    /// Whether the body is there, and nothing is being built.
+    /// Whether the body, or the mesh that is none, is there, and nothing is being built.
     pub fn is_idle(&self) -> bool {
         self.stale == Stale::Nothing
             && self.builder.step().is_none()
-            && self.model.body.is_some()
+            && (self.model.body.is_some() || self.model.seen.is_some())
             && self.file_job.is_none()
     }
 
@@ -324,6 +336,7 @@ impl Designer {
         let of = |mesh: &mesh_kernel::TriMesh| mesh.positions.clone();
         let garment = self.model.cloth.as_ref().filter(|_| self.look.garment).map(|c| of(&c.mesh));
         let body = self.model.body.as_ref().map(|b| of(&b.on.body.mesh));
+        let body = body.or(self.model.seen.as_ref().map(|s| of(&s.mesh)));
         if let Some(places) = garment.filter(|_| !self.look.body).or(body) {
             self.view.eye.frame(places);
         }
@@ -492,10 +505,11 @@ pub(crate) fn describe(recovery: &Recovery) -> String {
         m => format!(", {} days ago", m / (24 * 60)),
     });
     match recovery.open() {
-        Ok(history) => {
+        Ok(Journal { history, file }) => {
             let last = history.undo_label().unwrap_or("nothing changed").to_owned();
+            let of = file.map_or_else(String::new, |f| format!(" of {}", f.path.display()));
             format!(
-                "{}: {} changes, the last: {last}{age}",
+                "{}: {} changes{of}, the last: {last}{age}",
                 history.draft().template.name,
                 history.labels().1
             )

@@ -29,6 +29,27 @@ pub(crate) fn unsaved(ui: &mut egui::Ui, name: &str, next: &Next) -> Answer {
     answer
 }
 
+pub(crate) fn changed(ui: &mut egui::Ui, path: &Path, next: Option<&Next>) -> Answer {
+    ui.heading("Save over another version?");
+    ui.label(format!(
+        "{} was written by another program since it was opened here. Saving over it would lose what that wrote.",
+        path.display()
+    ));
+    let mut answer = Answer::None;
+    ui.horizontal(|ui| {
+        if ui.button("Save under another name").clicked() {
+            answer = Answer::SaveAs(next.cloned());
+        }
+        if ui.button("Save over it").clicked() {
+            answer = Answer::SaveOver(path.to_owned(), next.cloned());
+        }
+        if ui.button("Go on working").clicked() {
+            answer = Answer::Close;
+        }
+    });
+    answer
+}
+
 pub(crate) fn recovery(ui: &mut egui::Ui, found: &[(Recovery, String)]) -> Answer {
     ui.heading("Work that was not saved");
     ui.label("toile ended without saving. The work is still there:");
@@ -107,13 +128,20 @@ pub(crate) fn path(
     }
     let target = PathBuf::from(text.trim());
     let mut answer = Answer::None;
-    let is_over = !purpose.reads() && target.is_file();
+    let is_file = target.is_file();
+    let is_refused = matches!(purpose, Purpose::Export) && is_file;
+    let is_over = !purpose.reads() && is_file;
+    if is_refused {
+        ui.label("That is a file: write the name of a folder.");
+    }
     if matches!(purpose, Purpose::SaveAs(_)) && kind_of_name(&target) == FileKind::Template {
         ui.label("A .json holds the template alone: without the body, loose edges and drawn curves.");
     }
     ui.horizontal(|ui| {
-        let text = if is_over { format!("{button} over the file that is there") } else { button.to_owned() };
-        if ui.button(text).clicked() || entered && !is_over {
+        let says_over = is_over && !is_refused;
+        let text =
+            if says_over { format!("{button} over the file that is there") } else { button.to_owned() };
+        if ui.add_enabled(!is_refused, egui::Button::new(text)).clicked() || entered && !is_over {
             answer = Answer::Path(purpose.clone(), target.clone());
         }
         if ui.button("Cancel").clicked() {

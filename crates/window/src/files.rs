@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use design::draft::{BodySource, Draft, FileKind, History, Mesh, journal};
+use design::draft::{BodySource, Draft, FileKind, History, Journal, Mesh, SourceFile};
 use design::regenerate::{Artifact, ExportStep, Regenerated};
 use mesh_kernel::files::{Format, write_atomically};
 use template::Template;
@@ -14,10 +14,10 @@ use crate::workshop::Stop;
 pub(crate) enum Opened {
     Design {
         history: History,
-        kind: FileKind,
+        file: SourceFile,
     },
     /// Work as a journal holds it.
-    Journal(History),
+    Journal(Journal),
     Body(Mesh),
 }
 
@@ -49,10 +49,11 @@ pub(crate) fn open(path: &Path) -> Result<Opened, String> {
     }
     let bytes = std::fs::read(path).map_err(|e| about(&e))?;
     if path.extension().is_some_and(|e| e == "journal") {
-        return journal::replay(&bytes).map(Opened::Journal).map_err(|e| about(&e));
+        return Journal::read(&bytes).map(Opened::Journal).map_err(|e| about(&e));
     }
     let (draft, kind) = Draft::read(&bytes).map_err(|e| about(&e))?;
-    Ok(Opened::Design { history: History::new(draft), kind })
+    let file = SourceFile::holding(path.to_owned(), kind, &bytes);
+    Ok(Opened::Design { history: History::new(draft), file })
 }
 
 /// What a draft becomes under a name: a `.json` is a template, everything else a draft.
@@ -68,7 +69,7 @@ pub(crate) fn kind_of_name(path: &Path) -> FileKind {
 ///
 /// # Errors
 /// One sentence.
-pub(crate) fn save(draft: &Draft, path: &Path) -> Result<FileKind, String> {
+pub(crate) fn save(draft: &Draft, path: &Path) -> Result<SourceFile, String> {
     let kind = kind_of_name(path);
     let bytes = match kind {
         FileKind::Template => {
@@ -80,7 +81,7 @@ pub(crate) fn save(draft: &Draft, path: &Path) -> Result<FileKind, String> {
     };
     let written = write_atomically(path, &bytes);
     written
-        .map(|()| kind)
+        .map(|()| SourceFile::holding(path.to_owned(), kind, &bytes))
         .map_err(|e| format!("{} could not be saved: {e}; choose another place", path.display()))
 }
 

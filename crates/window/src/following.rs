@@ -2,10 +2,13 @@
 
 use std::sync::Arc;
 
+use design::draft::BodySource;
 use eframe::egui;
+use mesh_kernel::TriMesh;
 
 use crate::designer::{Designer, Stale};
 use crate::jobs::FileJob;
+use crate::model::SeenMesh;
 use crate::view::{Part, scene};
 
 /// Garments of earlier drafts that are kept, for undo to show them at once.
@@ -53,9 +56,22 @@ impl Designer {
         self.show_solids();
     }
 
+    /// Shows the mesh of which no body could be made.
+    fn see_mesh(&mut self) {
+        let BodySource::Mesh(body) = &*self.session.draft().body else { return };
+        let mesh = self.first_mesh.as_ref().filter(|first| first.faces == body.faces).cloned();
+        let mesh = mesh.unwrap_or_else(|| {
+            let positions = body.positions.iter().map(|p| glam::DVec3::from_array(*p)).collect();
+            TriMesh::new(positions, body.faces.clone())
+        });
+        self.model.seen = Some(SeenMesh::new(mesh));
+    }
+
     /// Another body or garment is there.
     pub(crate) fn show_solids(&mut self) {
-        self.view.solids.body = self.model.body.as_ref().map(|b| Arc::clone(&b.caster));
+        let seen = self.model.seen.as_ref();
+        let caster = self.model.body.as_ref().map(|b| &b.caster).or(seen.map(|s| &s.caster));
+        self.view.solids.body = caster.map(Arc::clone);
         self.view.solids.garment =
             self.model.cloth.as_ref().filter(|_| self.look.garment).map(|c| Arc::clone(&c.caster));
         self.view.set_x_ray(self.look.x_ray);
@@ -66,7 +82,7 @@ impl Designer {
             (None, None) => true,
             _ => false,
         };
-        if !is_same {
+        if !is_same || seen.is_some() {
             let is_closed = shown.as_ref().is_some_and(|(body, section)| body.is_closed && section.is_none());
             self.view.set_mesh(Part::Body, scene::body(&self.model, &self.look), is_closed);
             self.shown_body = shown;
@@ -84,8 +100,10 @@ impl Designer {
     pub(crate) fn refresh(&mut self, context: &egui::Context) {
         if let Some(done) = self.builder.take() {
             let is_new_body = done.body.is_some();
-            if let Some(body) = done.body {
-                self.model.body = Some(body);
+            match done.body {
+                Some(body) => (self.model.body, self.model.seen) = (Some(body), None),
+                None if self.model.body.is_none() => self.see_mesh(),
+                None => {}
             }
             match done.cloth {
                 Ok(cloth) => {
@@ -106,7 +124,11 @@ impl Designer {
                 Err(_) if !done.is_whole && self.builder.step().is_some() => {}
                 Err(e) => {
                     self.export_to = None;
-                    self.problem(e);
+                    let name = self.draft().body.name().to_owned();
+                    self.problem(match self.model.seen {
+                        Some(_) => format!("{name} is shown as a mesh to look at, for it is no body: {e}"),
+                        None => e,
+                    });
                 }
             }
             let draft = Arc::clone(self.session.draft());

@@ -50,7 +50,7 @@ fn dress() -> Draft {
 /// A designer whose garment is built, seen in a picture of 1280 × 800.
 fn designer(state: &std::path::Path) -> Designer {
     let started = Instant::now();
-    let mut designer = Designer::new(Start { draft: dress(), file: None, state: state.to_owned() });
+    let mut designer = Designer::new(Start { state: state.to_owned(), ..Start::new(dress()) });
     let context = egui::Context::default();
     let mut seen = None;
     while !designer.is_built() {

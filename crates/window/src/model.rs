@@ -4,7 +4,10 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use design::draft::{Draft, edges, faces, with_drawn_features};
+use design::units::guess_of_model;
 use glam::DVec3;
+use mesh_kernel::TriMesh;
+use mesh_kernel::query::RayCaster;
 use reference::human::HumanBody;
 use template::format::{At, NodeSpec};
 use template::{Reference, node_frame, node_places};
@@ -119,10 +122,28 @@ impl Wireframe {
     }
 }
 
+/// A mesh that is no body: to be looked at, and nothing else.
+pub(crate) struct SeenMesh {
+    /// In millimetres, as far as its size tells.
+    pub(crate) mesh: TriMesh,
+    pub(crate) caster: Arc<RayCaster>,
+}
+
+impl SeenMesh {
+    pub(crate) fn new(mut mesh: TriMesh) -> Self {
+        let unit = guess_of_model(&mesh);
+        mesh.positions.iter_mut().for_each(|p| *p *= unit);
+        let caster = Arc::new(RayCaster::new(&mesh));
+        Self { mesh, caster }
+    }
+}
+
 /// Everything that follows from a draft.
 #[derive(Default)]
 pub(crate) struct Model {
     pub(crate) body: Option<Arc<Body>>,
+    /// What is seen while there is no body.
+    pub(crate) seen: Option<SeenMesh>,
     pub(crate) cloth: Option<Arc<Cloth>>,
     pub(crate) places: BTreeMap<String, DVec3>,
     pub(crate) anchors: Vec<Anchor>,

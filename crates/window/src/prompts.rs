@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use design::draft::{BodySource, Draft, Edit, FileKind, History, Recovery};
+use design::draft::{BodySource, Draft, Edit, FileKind, History, Journal, Recovery, SourceFile};
 use design::drawings::Making;
 use eframe::egui;
 
@@ -11,12 +11,12 @@ use crate::actions::remedy;
 use crate::board::pen::Pen;
 use crate::browsing::{Browsed, Browsing, FileWish};
 use crate::designer::{Designer, Stale, describe};
-use crate::dialogs::{keys, path, recovery, unsaved};
+use crate::dialogs::{changed, keys, path, recovery, unsaved};
 use crate::files::{self, LIBRARY, Opened};
 use crate::jobs::FileJob;
 use crate::layout::{self, LayoutAnswer};
 use crate::notices::Notice;
-use crate::session::{OnDisk, Session};
+use crate::session::Session;
 use crate::workshop::{self, Stop};
 
 /// What is done once unsaved work is safe or given up.
@@ -57,6 +57,11 @@ impl Purpose {
 /// A question.
 pub(crate) enum Prompt {
     Unsaved(Next),
+    /// The design's own file was written by something else; with what to do once it is saved.
+    Changed {
+        path: PathBuf,
+        next: Option<Next>,
+    },
     Recovery(Vec<(Recovery, String)>),
     Path {
         purpose: Purpose,
@@ -81,6 +86,9 @@ pub(crate) enum Answer {
     None,
     Close,
     Save(Next),
+    /// Over what something else has written.
+    SaveOver(PathBuf, Option<Next>),
+    SaveAs(Option<Next>),
     GiveUp(Next),
     Recover(Recovery),
     Discard(Recovery),
@@ -123,13 +131,13 @@ impl Designer {
     /// Opens a file; when it is bad, nothing changes.
     fn open(&mut self, path: &Path) {
         match files::open(path) {
-            Ok(Opened::Design { history, kind }) => {
-                let name = history.draft().template.name.clone();
-                self.begin(history, Some(OnDisk { path: path.to_owned(), kind }), true);
+            Ok(Opened::Design { history, file }) => {
+                let (name, kind) = (history.draft().template.name.clone(), file.kind);
+                self.begin(history, Some(file), true);
                 self.notices.say(format!("opened {name}, {}", kind.words()));
             }
-            Ok(Opened::Journal(history)) => {
-                self.begin(history, None, false);
+            Ok(Opened::Journal(Journal { history, file })) => {
+                self.begin(history, file, false);
                 self.notices.say("opened the work that a journal holds; it is not saved yet");
             }
             Ok(Opened::Body(mesh)) => {
@@ -142,7 +150,7 @@ impl Designer {
     }
 
     /// Another design: with a history and a journal of its own.
-    fn begin(&mut self, history: History, file: Option<OnDisk>, is_saved: bool) {
+    fn begin(&mut self, history: History, file: Option<SourceFile>, is_saved: bool) {
         self.session = Session::new(history, file, is_saved, &self.state);
         self.take_tool(self.tool);
         (self.board.pen, self.board.selection) = (Pen::new(self.board.pen.tool), Vec::new());
@@ -151,10 +159,10 @@ impl Designer {
 
     pub(crate) fn save(&mut self) {
         match self.session.file.clone() {
-            Some(OnDisk { path, kind: FileKind::Draft }) => {
-                self.save_to(&path);
+            Some(file) if file.kind == FileKind::Draft => {
+                self.save_own(&file, None);
             }
-            Some(OnDisk { path, kind }) => self.prompt_save_as(Some(format!(
+            Some(SourceFile { path, kind, .. }) => self.prompt_save_as(Some(format!(
                 "{} is {}. A draft keeps the body, loose edges and drawn curves too.",
                 path.display(),
                 kind.words()
@@ -163,10 +171,29 @@ impl Designer {
         }
     }
 
+    /// Saves into the design's own file, unless something else has written it; then goes on.
+    fn save_own(&mut self, file: &SourceFile, next: Option<Next>) {
+        if file.is_changed() {
+            self.prompt = Some(Prompt::Changed { path: file.path.clone(), next });
+        } else {
+            self.save_and(&file.path, next);
+        }
+    }
+
+    /// Saves, and goes on when it could be saved.
+    fn save_and(&mut self, path: &Path, next: Option<Next>) {
+        if self.save_to(path)
+            && let Some(next) = next
+        {
+            self.go_on(next);
+        }
+    }
+
     fn save_to(&mut self, path: &Path) -> bool {
         match files::save(self.session.draft(), path) {
-            Ok(kind) => {
-                self.session.saved_to(OnDisk { path: path.to_owned(), kind });
+            Ok(file) => {
+                let kind = file.kind;
+                self.session.saved_to(file);
                 self.prefer(|p| p.remember(path));
                 let left_out = files::left_out(self.draft()).filter(|_| kind == FileKind::Template);
                 let left_out = left_out.map_or_else(String::new, |l| format!("; a template is without {l}"));
@@ -217,6 +244,14 @@ impl Designer {
     pub(crate) fn prompt_save_as(&mut self, note: Option<String>) {
         let name = self.session.beside(&format!("{}.toile", self.session.name()));
         self.prompt_path(Purpose::SaveAs(None), &name, note.unwrap_or_default());
+    }
+
+    /// Asks for a name to save under, and what is done then.
+    fn prompt_save_as_and(&mut self, next: Option<Next>) {
+        self.prompt_save_as(None);
+        if let Some(Prompt::Path { purpose, .. }) = &mut self.prompt {
+            *purpose = Purpose::SaveAs(next);
+        }
     }
 
     pub(crate) fn prompt_export(&mut self) {
@@ -290,8 +325,8 @@ impl Designer {
 
     fn recover(&mut self, recovery: &Recovery) {
         match recovery.open() {
-            Ok(history) => {
-                self.begin(history, None, false);
+            Ok(Journal { history, file }) => {
+                self.begin(history, file, false);
                 // The old journal goes only when the new one holds the work.
                 match self.session.keep_now() {
                     Ok(()) => recovery.discard(),
@@ -331,6 +366,7 @@ impl Designer {
             ui.set_width(if matches!(prompt, Prompt::Keys) { 880.0 } else { 620.0 });
             answer = match &mut prompt {
                 Prompt::Unsaved(next) => unsaved(ui, &self.session.name(), next),
+                Prompt::Changed { path, next } => changed(ui, path, next.as_ref()),
                 Prompt::Recovery(found) => recovery(ui, found),
                 Prompt::Path { purpose, text, note } => {
                     path(ui, purpose, text, note, &self.preferences.recent, is_browsing)
@@ -361,18 +397,11 @@ impl Designer {
             }
             Answer::Layout(_) => {}
             Answer::Save(next) => match self.session.file.clone() {
-                Some(OnDisk { path, kind: FileKind::Draft }) => {
-                    if self.save_to(&path) {
-                        self.go_on(next);
-                    }
-                }
-                _ => {
-                    self.prompt_save_as(None);
-                    if let Some(Prompt::Path { purpose, .. }) = &mut self.prompt {
-                        *purpose = Purpose::SaveAs(Some(next));
-                    }
-                }
+                Some(file) if file.kind == FileKind::Draft => self.save_own(&file, Some(next)),
+                _ => self.prompt_save_as_and(Some(next)),
             },
+            Answer::SaveOver(path, next) => self.save_and(&path, next),
+            Answer::SaveAs(next) => self.prompt_save_as_and(next),
             Answer::Recover(recovery) => self.recover(&recovery),
             Answer::Discard(gone) => {
                 gone.discard();
@@ -383,13 +412,7 @@ impl Designer {
             }
             Answer::Path(purpose, path) => match purpose {
                 Purpose::Open => self.ask(Next::Open(path)),
-                Purpose::SaveAs(next) => {
-                    if self.save_to(&path)
-                        && let Some(next) = next
-                    {
-                        self.go_on(next);
-                    }
-                }
+                Purpose::SaveAs(next) => self.save_and(&path, next),
                 Purpose::Export => self.export(path, context),
                 Purpose::Thicken(thickness) => self.thicken(thickness, path, context),
                 Purpose::Deflate(source) => self.deflate(source, path, context),

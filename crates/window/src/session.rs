@@ -3,24 +3,17 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use design::draft::{Autosave, Command, Draft, Edit, EditError, FileKind, History};
+use design::draft::{Autosave, Command, Draft, Edit, EditError, History, SourceFile};
 use eframe::egui;
 
 use crate::selection::{Mode, Selection};
-
-/// A file and what it is.
-#[derive(Clone, Debug)]
-pub(crate) struct OnDisk {
-    pub(crate) path: PathBuf,
-    pub(crate) kind: FileKind,
-}
 
 /// A design that is being worked on.
 pub(crate) struct Session {
     history: History,
     autosave: Autosave,
     /// The file that it came from or was saved to.
-    pub(crate) file: Option<OnDisk>,
+    pub(crate) file: Option<SourceFile>,
     /// The draft that the file holds.
     saved: Arc<Draft>,
     pub(crate) selection: Selection,
@@ -33,7 +26,7 @@ pub(crate) struct Session {
 
 impl Session {
     /// Begins with a history; what of it is not in `file` counts as unsaved.
-    pub(crate) fn new(history: History, file: Option<OnDisk>, is_saved: bool, state: &Path) -> Self {
+    pub(crate) fn new(history: History, file: Option<SourceFile>, is_saved: bool, state: &Path) -> Self {
         let surfaces = &history.draft().template.surfaces;
         let surface = surfaces.keys().next().cloned().unwrap_or_else(|| "surface".to_owned());
         // A draft that no state of the history is: everything is unsaved.
@@ -64,14 +57,22 @@ impl Session {
     }
 
     /// The draft is in this file now.
-    pub(crate) fn saved_to(&mut self, file: OnDisk) {
+    pub(crate) fn saved_to(&mut self, file: SourceFile) {
         self.file = Some(file);
         self.saved = Arc::clone(self.history.draft());
+        self.autosave.saved();
+    }
+
+    /// The file as a journal names it, for a program that starts elsewhere.
+    fn file_from_anywhere(&self) -> Option<SourceFile> {
+        let file = self.file.clone()?;
+        let path = std::path::absolute(&file.path).unwrap_or_else(|_| file.path.clone());
+        Some(SourceFile { path, ..file })
     }
 
     /// The work was taken over from another journal: this one must hold it before that one goes.
     pub(crate) fn keep_now(&self) -> std::io::Result<()> {
-        self.autosave.save_now(&self.history)
+        self.autosave.save_now(&self.history, self.file_from_anywhere().as_ref())
     }
 
     /// Carries a command out; what was dragged is let go.
@@ -96,7 +97,12 @@ impl Session {
 
     fn carry_out(&mut self, command: Command) -> Result<(), EditError> {
         self.history.apply(command)?;
-        self.autosave.changed(&self.history);
+        if self.is_unsaved() {
+            self.autosave.changed(&self.history, self.file_from_anywhere().as_ref());
+        } else {
+            // Undone to what the file holds.
+            self.autosave.saved();
+        }
         Ok(())
     }
 

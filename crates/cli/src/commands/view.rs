@@ -4,12 +4,15 @@ use std::sync::Arc;
 
 use design::draft::{BodySource, Draft, Mesh, journal, state_folder};
 
-use super::{extension, file_name, read_mesh};
+use super::{extension, file_name, is_body_file, read_sheet};
 use crate::failure::Failure;
 use crate::words::View;
 
 pub(crate) fn run(words: &View) -> Result<(), Failure> {
-    let is_mesh = |path: &std::path::Path| !matches!(extension(path).as_str(), "json" | "toile" | "journal");
+    let is_mesh = |path: &std::path::Path| {
+        is_body_file(path) || !matches!(extension(path).as_str(), "json" | "toile" | "journal")
+    };
+    let mut model = None;
     let mut body = words.body.clone();
     let mut draft = Draft::empty();
     let mut file = None;
@@ -30,9 +33,11 @@ pub(crate) fn run(words: &View) -> Result<(), Failure> {
         None => {}
     }
     if let Some(path) = &body {
-        let mesh = read_mesh(path)?;
+        let mesh = read_sheet(path)?;
         let positions = mesh.positions.iter().map(|p| p.to_array()).collect();
-        draft.body = Arc::new(BodySource::Mesh(Mesh { file: file_name(path), positions, faces: mesh.faces }));
+        let faces = mesh.faces.clone();
+        draft.body = Arc::new(BodySource::Mesh(Mesh { file: file_name(path), positions, faces }));
+        model = Some(mesh);
     }
     let refused = |why: String| {
         Failure::new(format!("cannot open the window: {why}")).remedy(
@@ -42,7 +47,7 @@ pub(crate) fn run(words: &View) -> Result<(), Failure> {
     if is_without_display() {
         return Err(refused("there is no display (neither DISPLAY nor WAYLAND_DISPLAY is set)".to_owned()));
     }
-    let start = window::Start { draft, file, state: state_folder() };
+    let start = window::Start { draft, file, model, state: state_folder() };
     window::run(window::Designer::new(start)).map_err(|e| refused(e.to_string()))
 }
 

@@ -11,7 +11,7 @@ use super::Unit;
 /// Example: toile view samples/fitted-bodice.json --body samples/form-12.obj
 #[derive(Debug, Args)]
 pub(crate) struct View {
-    /// A template, a design, or a body's mesh; nothing: an empty template on the average form.
+    /// A template, a design, a body's mesh, or any mesh to look at; nothing: an empty template on the average form.
     pub(crate) file: Option<PathBuf>,
     /// The body.
     #[arg(long, value_name = "MESH")]

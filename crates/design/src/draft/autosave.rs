@@ -1,12 +1,15 @@
 //! Work that survives a kill: journals written in the background, found again at the next start.
 
+use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use mesh_kernel::files::write_atomically;
 
+use super::journal::{Journal, SourceFile};
 use super::{DraftFileError, History, journal};
 
 /// At most this much work is lost.
@@ -21,12 +24,21 @@ pub fn state_folder() -> PathBuf {
         .join("toile")
 }
 
+/// What the writer is told.
+#[derive(Debug)]
+enum News {
+    /// The work, and the file that it is of.
+    Changed(History, Option<SourceFile>),
+    /// All of it is in its file.
+    Saved,
+}
+
 /// Saves a history in the background while it lives; dropped, it removes what it saved, for work was ended in order.
 #[derive(Debug)]
 pub struct Autosave {
-    sender: Option<Sender<History>>,
+    sender: Option<Sender<News>>,
     writer: Option<JoinHandle<()>>,
-    path: PathBuf,
+    place: Arc<Place>,
 }
 
 impl Autosave {
@@ -36,16 +48,26 @@ impl Autosave {
             std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).map_or(0, |d| d.as_nanos());
         let path = folder.join(format!("{}-{stamp}.journal", std::process::id()));
         let (sender, receiver) = channel();
-        let to = path.clone();
+        let place = Arc::new(Place { path, lock: Mutex::new(None) });
+        let to = Arc::clone(&place);
         let writer = std::thread::spawn(move || write_changes(&to, &receiver));
-        Self { sender: Some(sender), writer: Some(writer), path }
+        Self { sender: Some(sender), writer: Some(writer), place }
     }
 
-    /// The history has changed. Returns at once.
-    pub fn changed(&self, history: &History) {
+    /// The history has changed since it was in `file`. Returns at once.
+    pub fn changed(&self, history: &History, file: Option<&SourceFile>) {
+        self.tell(News::Changed(history.clone(), file.cloned()));
+    }
+
+    /// All work is in its file: nothing is left to be recovered. Returns at once.
+    pub fn saved(&self) {
+        self.tell(News::Saved);
+    }
+
+    fn tell(&self, news: News) {
         if let Some(sender) = &self.sender {
             // The writer ends only with this value.
-            let _ = sender.send(history.clone());
+            let _ = sender.send(news);
         }
     }
 
@@ -53,22 +75,59 @@ impl Autosave {
     ///
     /// # Errors
     /// What the system says.
-    pub fn save_now(&self, history: &History) -> std::io::Result<()> {
-        if let Some(folder) = self.path.parent() {
-            std::fs::create_dir_all(folder)?;
-        }
-        write_atomically(&self.path, &journal::to_bytes(history))
+    pub fn save_now(&self, history: &History, file: Option<&SourceFile>) -> std::io::Result<()> {
+        self.place.write(history, file)
     }
 
     /// Where it saves.
     pub fn path(&self) -> &Path {
-        &self.path
+        &self.place.path
     }
 }
 
-fn write_changes(path: &Path, receiver: &Receiver<History>) {
+/// A journal's file, and the lock beside it that tells others that its program runs: systems let go of locks however a
+/// program ends.
+#[derive(Debug)]
+struct Place {
+    path: PathBuf,
+    lock: Mutex<Option<File>>,
+}
+
+impl Place {
+    fn write(&self, history: &History, file: Option<&SourceFile>) -> std::io::Result<()> {
+        if let Some(folder) = self.path.parent() {
+            std::fs::create_dir_all(folder)?;
+        }
+        let mut lock = self.lock.lock().unwrap_or_else(PoisonError::into_inner);
+        if lock.is_none() {
+            *lock = locked(&lock_of(&self.path));
+        }
+        write_atomically(&self.path, &journal::to_bytes_of(history, file))
+    }
+
+    fn clear(&self) {
+        let _ = std::fs::remove_file(&self.path);
+    }
+}
+
+/// Makes a file that is locked from the moment that it has its name; nothing where the system has no locks.
+fn locked(path: &Path) -> Option<File> {
+    let before = path.with_extension("locking");
+    let file = File::create(&before).ok()?;
+    let made = file.try_lock().is_ok() && std::fs::rename(&before, path).is_ok();
+    if !made {
+        let _ = std::fs::remove_file(&before);
+    }
+    made.then_some(file)
+}
+
+fn lock_of(journal: &Path) -> PathBuf {
+    journal.with_extension("lock")
+}
+
+fn write_changes(place: &Place, receiver: &Receiver<News>) {
     let mut last: Option<Instant> = None;
-    let mut waiting: Option<History> = None;
+    let mut waiting = None;
     loop {
         let patience = match (&waiting, last) {
             (None, _) => Duration::from_secs(3600),
@@ -76,15 +135,16 @@ fn write_changes(path: &Path, receiver: &Receiver<History>) {
             (Some(_), Some(last)) => EVERY.saturating_sub(last.elapsed()),
         };
         match receiver.recv_timeout(patience) {
-            Ok(history) => waiting = Some(history),
+            Ok(News::Changed(history, file)) => waiting = Some((history, file)),
+            Ok(News::Saved) => {
+                waiting = None;
+                place.clear();
+            }
             Err(RecvTimeoutError::Disconnected) => return,
             Err(RecvTimeoutError::Timeout) => {
-                let Some(history) = waiting.take() else { continue };
-                let made = path.parent().is_none_or(|folder| std::fs::create_dir_all(folder).is_ok());
-                if made {
-                    // A full disk must not stop the work; the next change tries again.
-                    let _ = write_atomically(path, &journal::to_bytes(&history));
-                }
+                let Some((history, file)) = waiting.take() else { continue };
+                // A full disk must not stop the work; the next change tries again.
+                let _ = place.write(&history, file.as_ref());
                 last = Some(Instant::now());
             }
         }
@@ -98,7 +158,8 @@ impl Drop for Autosave {
             // A writer that panicked has nothing more to write.
             let _ = writer.join();
         }
-        let _ = std::fs::remove_file(&self.path);
+        self.place.clear();
+        let _ = std::fs::remove_file(lock_of(&self.place.path));
     }
 }
 
@@ -114,23 +175,30 @@ impl Recovery {
     ///
     /// # Errors
     /// [`DraftFileError`].
-    pub fn open(&self) -> Result<History, DraftFileError> {
+    pub fn open(&self) -> Result<Journal, DraftFileError> {
         let bytes = std::fs::read(&self.path).map_err(|e| DraftFileError::Format(e.to_string()))?;
-        journal::replay(&bytes)
+        Journal::read(&bytes)
     }
 
     /// Throws it away; a file that is gone already is no error.
     pub fn discard(&self) {
         let _ = std::fs::remove_file(&self.path);
+        let _ = std::fs::remove_file(lock_of(&self.path));
     }
 }
 
-/// Journals in `folder` whose programs run no more, in order of their names.
+/// Journals in `folder` whose programs run no more, in order of their names. Locks that such programs left are removed.
 pub fn recoveries(folder: &Path) -> Vec<Recovery> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
+    let entries: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    for lock in entries.iter().filter(|path| path.extension().is_some_and(|e| e == "lock")) {
+        let journal = lock.with_extension("journal");
+        if !journal.exists() && !runs(&journal) {
+            let _ = std::fs::remove_file(lock);
+        }
+    }
     let mut found: Vec<Recovery> = entries
-        .flatten()
-        .map(|entry| entry.path())
+        .into_iter()
         .filter(|path| path.extension().is_some_and(|e| e == "journal") && !runs(path))
         .map(|path| Recovery { path })
         .collect();
@@ -138,9 +206,8 @@ pub fn recoveries(folder: &Path) -> Vec<Recovery> {
     found
 }
 
-/// Whether the program that a journal is named after still runs. Without `/proc` only our own is known.
-fn runs(path: &Path) -> bool {
-    let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
-    let Some(id) = stem.split('-').next().and_then(|s| s.parse::<u32>().ok()) else { return false };
-    id == std::process::id() || Path::new("/proc").join(id.to_string()).exists()
+/// Whether the program that writes a journal still runs: its lock is held. Where there are no locks none does.
+fn runs(journal: &Path) -> bool {
+    let lock = File::open(lock_of(journal));
+    lock.is_ok_and(|file| matches!(file.try_lock(), Err(TryLockError::WouldBlock)))
 }

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use template::Template;
 use template::format::TemplateFile;
 
+use super::journal::SourceFile;
 use super::{BodySource, Draft, DraftFileError, EditError, Mesh};
 use crate::document::Document;
 
@@ -11,7 +12,8 @@ use crate::document::Document;
 pub const DRAFT_VERSION: u32 = 2;
 
 /// What a file is that a draft can be made of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum FileKind {
     /// A draft: it is written back as it was read.
     Draft,
@@ -64,15 +66,25 @@ pub fn template_of(text: &str) -> Result<Template, DraftFileError> {
 struct DraftFile {
     toile_draft: u32,
     program: String,
+    /// In journals only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    file: Option<SourceFile>,
     draft: Draft,
 }
 
 impl Draft {
     /// The file's bytes, one line; the same draft gives the same bytes.
     pub fn to_bytes(&self) -> Vec<u8> {
+        self.to_bytes_with(None)
+    }
+
+    /// The same as the first line of a journal, which says what file the work is of.
+    pub(super) fn to_bytes_with(&self, source: Option<&SourceFile>) -> Vec<u8> {
         let file = DraftFile {
             toile_draft: if super::is_blank(&self.drawing) { 1 } else { DRAFT_VERSION },
             program: env!("CARGO_PKG_VERSION").to_owned(),
+            // A path that is no text cannot be written in a journal.
+            file: source.filter(|s| s.path.to_str().is_some()).cloned(),
             draft: self.clone(),
         };
         // Maps have text keys, so this cannot fail.

@@ -30,6 +30,7 @@ pub use edit::Edit;
 pub use error::{DraftFileError, EditError};
 pub use file::{DRAFT_VERSION, FileKind, template_of};
 pub use history::{Command, History};
+pub use journal::{Journal, SourceFile};
 pub use rename::Named;
 pub use topology::{edges, faces, joints};
 

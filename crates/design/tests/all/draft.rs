@@ -4,7 +4,8 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use design::draft::{
-    BodySource, Command, Draft, DraftFileError, Edit, EditError, History, edges, joints, journal, preview,
+    Autosave, BodySource, Command, Draft, DraftFileError, Edit, EditError, FileKind, History, Journal,
+    SourceFile, edges, joints, journal, preview,
 };
 use design::regenerate::Settings;
 use proptest::prelude::*;
@@ -127,24 +128,91 @@ fn files_are_whole_or_refused_with_one_message() {
 fn a_journal_that_is_left_behind_is_found_and_replayed() {
     let folder = tempfile::tempdir().unwrap();
     let history = skirt();
-    // A number beyond any process's.
-    std::fs::write(folder.path().join("4294967294-1.journal"), journal::to_bytes(&history)).unwrap();
+    // The number of a process says nothing: another one may have it by now, as 1 is always taken.
+    for name in ["4294967294-1.journal", "1-1.journal"] {
+        std::fs::write(folder.path().join(name), journal::to_bytes(&history)).unwrap();
+        let found = design::draft::recoveries(folder.path());
+        assert_eq!(found.len(), 1, "{name}");
+        let opened = found[0].open().unwrap();
+        assert_eq!(opened.history.draft(), history.draft());
+        assert_eq!(opened.file, None);
+        found[0].discard();
+        assert!(design::draft::recoveries(folder.path()).is_empty());
+    }
+}
+
+#[test]
+fn a_journal_whose_program_runs_is_not_offered() {
+    let folder = tempfile::tempdir().unwrap();
+    let autosave = Autosave::start(folder.path());
+    autosave.save_now(&skirt(), None).unwrap();
+    assert!(design::draft::recoveries(folder.path()).is_empty());
+    // What a program that ended otherwise leaves is its journal and a lock that nobody holds.
+    for name in ["9-9.journal", "9-9.lock"] {
+        std::fs::write(folder.path().join(name), journal::to_bytes(&skirt())).unwrap();
+    }
     let found = design::draft::recoveries(folder.path());
     assert_eq!(found.len(), 1);
-    assert_eq!(found[0].open().unwrap().draft(), history.draft());
     found[0].discard();
+    drop(autosave);
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn what_is_saved_leaves_no_journal_and_later_work_does() {
+    let folder = tempfile::tempdir().unwrap();
+    let autosave = Autosave::start(folder.path());
+    autosave.save_now(&skirt(), None).unwrap();
+    autosave.saved();
+    let wait_until = |there: bool| {
+        let started = std::time::Instant::now();
+        while autosave.path().exists() != there {
+            assert!(
+                started.elapsed().as_secs() < 5,
+                "the journal is not {}",
+                if there { "written" } else { "gone" }
+            );
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        }
+    };
+    wait_until(false);
+    // It still runs, and its lock stays.
     assert!(design::draft::recoveries(folder.path()).is_empty());
+    assert!(autosave.path().with_extension("lock").exists());
+    autosave.changed(&skirt(), None);
+    wait_until(true);
+    assert!(design::draft::recoveries(folder.path()).is_empty());
+    std::fs::write(folder.path().join("8-8.lock"), "").unwrap();
+    assert!(design::draft::recoveries(folder.path()).is_empty());
+    assert!(!folder.path().join("8-8.lock").exists(), "of a program that ended without work to save");
+}
+
+#[test]
+fn a_journal_knows_the_file_that_its_work_is_of() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("skirt.toile");
+    let history = skirt();
+    std::fs::write(&path, history.draft().to_bytes()).unwrap();
+    let file = SourceFile::holding(path.clone(), FileKind::Draft, &history.draft().to_bytes());
+    let read = Journal::read(&journal::to_bytes_of(&history, Some(&file))).unwrap();
+    assert_eq!(read.history.draft(), history.draft());
+    assert_eq!(read.file, Some(file.clone()));
+    assert!(!file.is_changed());
+    std::fs::write(&path, "by another program").unwrap();
+    assert!(file.is_changed());
+    std::fs::remove_file(&path).unwrap();
+    assert!(!file.is_changed(), "nothing can be lost");
 }
 
 #[test]
 fn autosave_writes_within_five_seconds_and_cleans_up() {
     let folder = tempfile::tempdir().unwrap();
-    let autosave = design::draft::Autosave::start(folder.path());
+    let autosave = Autosave::start(folder.path());
     let mut history = skirt();
     for k in 0..40 {
         let ease = Some(EaseSpec { ease: f64::from(k), curve: None, surfaces: Vec::new() });
         history.apply(Command::Edit(Edit::SetEase { level: "hip".into(), ease })).unwrap();
-        autosave.changed(&history);
+        autosave.changed(&history, None);
     }
     let started = std::time::Instant::now();
     loop {
@@ -244,12 +312,12 @@ const CHILD: &str = "TOILE_TEST_AUTOSAVE_CHILD";
 #[test]
 fn a_child_that_works_until_it_is_killed() {
     let Some(folder) = std::env::var_os(CHILD) else { return };
-    let autosave = design::draft::Autosave::start(std::path::Path::new(&folder));
+    let autosave = Autosave::start(std::path::Path::new(&folder));
     let mut history = skirt();
     for k in 0u32.. {
         let ease = Some(EaseSpec { ease: f64::from(k % 300), curve: None, surfaces: Vec::new() });
         history.apply(Command::Edit(Edit::SetEase { level: "hip".into(), ease })).unwrap();
-        autosave.changed(&history);
+        autosave.changed(&history, None);
         // Whole in one go: the kill may come at any moment.
         let [new, done] = ["new", "done"].map(|name| std::path::Path::new(&folder).join(name));
         std::fs::write(&new, format!("{k}")).unwrap();
@@ -270,11 +338,18 @@ fn a_kill_loses_less_than_five_seconds_of_work() {
     std::thread::sleep(std::time::Duration::from_secs(4));
     // SIGKILL: nothing of it can clean up.
     child.kill().unwrap();
+    // Nobody has asked yet what became of it: the system still knows its number.
+    let started = std::time::Instant::now();
+    while design::draft::recoveries(folder.path()).is_empty() && started.elapsed().as_secs() < 5 {
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    let before_it_is_asked_for = design::draft::recoveries(folder.path()).len();
     child.wait().unwrap();
+    assert_eq!(before_it_is_asked_for, 1, "a program that is dead but not yet asked for has left its work");
     let done: usize = std::fs::read_to_string(folder.path().join("done")).unwrap().parse().unwrap();
     let found = design::draft::recoveries(folder.path());
     assert_eq!(found.len(), 1, "one journal, and its program is known to be dead");
-    let kept = found[0].open().unwrap().labels().1 - skirt().labels().1;
+    let kept = found[0].open().unwrap().history.labels().1 - skirt().labels().1;
     // A change each 50 ms and more: five seconds are a hundred of them.
     assert!(kept > 0 && done - kept.min(done) < 100, "{kept} of {done}");
 }

@@ -89,10 +89,11 @@ pub(crate) fn valence_color(surfaces: usize, is_dark: bool) -> Color {
     }
 }
 
-/// The body, cut where a section asks.
+/// The body, or the mesh that is none in the colours of its groups; cut where a section asks.
 pub(crate) fn body(model: &Model, look: &Look) -> Option<SceneMesh> {
-    let body = model.body.as_ref().filter(|_| look.body)?;
-    Some(cut_by(look.section, SceneMesh::body(&body.on.body.mesh)))
+    let body = model.body.as_ref().map(|b| SceneMesh::body(&b.on.body.mesh));
+    let body = body.or_else(|| model.seen.as_ref().map(|s| SceneMesh::garment(&s.mesh)));
+    body.filter(|_| look.body).map(|mesh| cut_by(look.section, mesh))
 }
 
 /// The garment, cut where a section asks.
@@ -207,6 +208,9 @@ pub(crate) fn template_lines(model: &Model, look: &Look) -> (Vec<SceneLine>, Vec
         };
         if let (true, Some(body)) = (look.body, &model.body) {
             outline(&body.on.body.mesh);
+        }
+        if let (true, Some(seen)) = (look.body, &model.seen) {
+            outline(&seen.mesh);
         }
         if let (true, Some(cloth)) = (look.garment, &model.cloth) {
             outline(&cloth.mesh);

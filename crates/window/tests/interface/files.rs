@@ -67,6 +67,137 @@ fn a_draft_is_saved_in_its_place_and_a_template_asks() {
     assert_eq!(Draft::from_bytes(&std::fs::read(&saved).unwrap()).unwrap(), *window.draft());
 }
 
+/// A window with a skirt in a file of its own, and the file.
+fn saved_skirt() -> (Window, PathBuf) {
+    let mut window = half_skirt();
+    window.wait(Designer::is_built);
+    let path = window.folder.path().join("own.toile");
+    window.keys(Modifiers::COMMAND, Key::S);
+    window.write("Path", &path.display().to_string());
+    window.click("Save");
+    assert!(path.is_file(), "{}", window.message());
+    (window, path)
+}
+
+#[test]
+fn a_file_that_something_else_has_written_is_not_overwritten_unasked() {
+    let (mut window, path) = saved_skirt();
+    // The window's own writing is no reason to ask.
+    window.key(Key::M);
+    window.keys(Modifiers::COMMAND, Key::S);
+    assert!(!window.has("Save over it") && window.message().contains("saved"), "{}", window.message());
+    window.key(Key::M);
+    std::fs::write(&path, "by another program").unwrap();
+    let text = || std::fs::read_to_string(&path).unwrap();
+    window.keys(Modifiers::COMMAND, Key::S);
+    window.click("Go on working");
+    assert_eq!(text(), "by another program");
+    window.keys(Modifiers::COMMAND, Key::S);
+    window.click("Save under another name");
+    let other = path.with_file_name("other.toile");
+    window.write("Path", &other.display().to_string());
+    window.click("Save");
+    assert_eq!(text(), "by another program");
+    assert_eq!(Draft::from_bytes(&std::fs::read(&other).unwrap()).unwrap(), *window.draft());
+    window.key(Key::M);
+    std::fs::write(&other, "by another program").unwrap();
+    window.keys(Modifiers::COMMAND, Key::S);
+    window.click("Save over it");
+    assert_eq!(Draft::from_bytes(&std::fs::read(&other).unwrap()).unwrap(), *window.draft());
+}
+
+/// The journals of a window.
+fn journals(window: &Window) -> Vec<PathBuf> {
+    let files = std::fs::read_dir(window.folder.path().join("state")).unwrap().flatten().map(|e| e.path());
+    files.filter(|p| p.extension().is_some_and(|e| e == "journal")).collect()
+}
+
+#[test]
+fn saved_work_leaves_no_journal_and_later_work_one_of_its_file() {
+    let (mut window, path) = saved_skirt();
+    let wait_for = |window: &mut Window, count: usize| {
+        let started = std::time::Instant::now();
+        while journals(window).len() != count {
+            assert!(started.elapsed().as_secs() < 5, "{:?}", journals(window));
+            std::thread::sleep(std::time::Duration::from_millis(10));
+        }
+    };
+    wait_for(&mut window, 0);
+    window.key(Key::M);
+    wait_for(&mut window, 1);
+    // Undone, the file holds it all.
+    window.keys(Modifiers::COMMAND, Key::Z);
+    wait_for(&mut window, 0);
+    window.key(Key::M);
+    wait_for(&mut window, 1);
+    // As a kill would leave it: the journal without its program.
+    let folder = tempfile::tempdir().unwrap();
+    let state = folder.path().join("state");
+    std::fs::create_dir_all(&state).unwrap();
+    std::fs::copy(&journals(&window)[0], state.join("1-1.journal")).unwrap();
+    let draft = window.draft().clone();
+    drop(window);
+    let mut window = Window::open(Draft::empty(), None, folder);
+    let labels = window.labels();
+    assert!(labels.iter().any(|l| l.contains(&format!("of {}", path.display()))), "{labels:?}");
+    window.click("Recover");
+    assert_eq!(*window.draft(), draft);
+    // The folder of the window before is gone, and the file with it: it is written again without a question.
+    std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+    window.keys(Modifiers::COMMAND, Key::S);
+    assert!(!window.has("Path"), "it knows its file");
+    assert_eq!(Draft::from_bytes(&std::fs::read(&path).unwrap()).unwrap(), draft);
+    std::fs::remove_dir_all(path.parent().unwrap()).unwrap();
+}
+
+#[test]
+fn a_mesh_that_is_no_body_is_there_to_be_looked_at() {
+    let tray = format!("{}/../../samples/desk-tray.obj", env!("CARGO_MANIFEST_DIR"));
+    let mesh = mesh_kernel::files::read(Path::new(&tray)).unwrap();
+    let body = design::draft::Mesh {
+        file: "desk-tray.obj".to_owned(),
+        positions: mesh.positions.iter().map(|p| p.to_array()).collect(),
+        faces: mesh.faces.clone(),
+    };
+    let body = std::sync::Arc::new(design::draft::BodySource::Mesh(body));
+    let draft = Draft { body, ..Draft::empty() };
+    let mut window = Window::with_model(draft.clone(), mesh);
+    let said = window.message();
+    assert!(
+        said.contains("desk-tray.obj is shown as a mesh to look at") && said.contains("no body"),
+        "{said}"
+    );
+    // It fills the view, in the colours of its patches.
+    let middle = window.at("3D view");
+    let picture = window.harness.render().unwrap();
+    let mut colors = std::collections::BTreeSet::new();
+    for (dx, dy) in (-150i32..150).step_by(10).flat_map(|x| (-150i32..150).step_by(10).map(move |y| (x, y))) {
+        let pixel = picture.get_pixel((middle.x as i32 + dx) as u32, (middle.y as i32 + dy) as u32);
+        colors.insert(pixel.0);
+    }
+    assert!(colors.len() > 3, "{colors:?}");
+    assert_eq!(*window.draft(), draft, "nothing is changed by it");
+    // A body takes its place.
+    let form = format!("{}/../../samples/form-12.obj", env!("CARGO_MANIFEST_DIR"));
+    drop_file(&mut window, Path::new(&form));
+    window.wait(|d| d.message().is_some_and(|m| m.contains("is the body now")) && d.is_idle());
+}
+
+#[test]
+fn an_export_into_a_file_is_not_offered() {
+    let mut window = half_skirt();
+    window.wait(Designer::is_built);
+    let file = window.folder.path().join("a-file");
+    std::fs::write(&file, "what was there").unwrap();
+    window.keys(Modifiers::COMMAND, Key::E);
+    window.write("Path", &file.display().to_string());
+    window.steps();
+    assert!(window.has("That is a file: write the name of a folder."), "{:?}", window.labels());
+    assert!(!window.has("Export over the file that is there"));
+    window.key(Key::Enter);
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), "what was there");
+}
+
 #[test]
 fn unsaved_work_is_asked_for_before_another_file_is_opened() {
     let mut window = half_skirt();

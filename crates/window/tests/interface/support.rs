@@ -34,14 +34,22 @@ impl Window {
         file: Option<(std::path::PathBuf, FileKind)>,
         folder: TempDir,
     ) -> Self {
-        let start = Start { draft, file, state: folder.path().join("state") };
+        let start = Start { file, state: folder.path().join("state"), ..Start::new(draft) };
         Self::of(size, Designer::new(start), folder)
+    }
+
+    /// With the mesh that the design's body was read from.
+    pub(crate) fn with_model(draft: Draft, model: mesh_kernel::TriMesh) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let state = folder.path().join("state");
+        let start = Start { model: Some(model), state, ..Start::new(draft) };
+        Self::of(SIZE, Designer::new(start), folder)
     }
 
     /// With this instead of the desktop's file dialog.
     pub(crate) fn with_dialog(draft: Draft, dialog: window::FileDialog) -> Self {
         let folder = tempfile::tempdir().unwrap();
-        let start = Start { draft, file: None, state: folder.path().join("state") };
+        let start = Start { state: folder.path().join("state"), ..Start::new(draft) };
         Self::of(SIZE, Designer::new(start).with_file_dialog(dialog), folder)
     }
 
