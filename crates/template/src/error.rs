@@ -77,6 +77,19 @@ pub enum TemplateError {
         /// What went wrong.
         problem: String,
     },
+    /// There is no memory for so many faces.
+    #[error(
+        "level: {levels} splits make {faces} faces, which take some {:.1} GB of memory; there is less: use fewer splits",
+        *bytes as f64 * 1e-9
+    )]
+    Memory {
+        /// Splits asked for.
+        levels: u8,
+        /// Faces that they make.
+        faces: usize,
+        /// What they are estimated to take.
+        bytes: usize,
+    },
     /// The work was cancelled.
     #[error("cancelled")]
     Cancelled,

@@ -111,6 +111,9 @@ const FINE_ROUNDS: usize = 5;
 const COARSE_FACES: usize = 1500;
 /// More template faces than this times four to the level are refused.
 const MOST_FACES: usize = 4_000_000;
+/// Memory that a face of a garment takes, with factors and pattern, bytes, times the binary logarithm of the number of faces:
+/// 2.5 kB a face at 50 000 faces, as measured, and the factors' share grows.
+const BYTES_PER_FACE: usize = 160;
 /// Each layer keeps this much more clearance than the one below, mm.
 const LAYER_STEP: f64 = 3.0;
 
@@ -245,6 +248,7 @@ pub fn regenerate(
             format!("{levels} splits of {coarse} faces make more than {MOST_FACES} faces; use fewer");
         return Err(TemplateError::format("level", message));
     }
+    check_memory(levels, coarse << (2 * levels))?;
     let joint_specs = joints::joints(layout, &patches)?;
     let mut lines = layout.lines.clone();
     lines.extend(outline::missing_lines(layout, &patches, &joint_specs, &first.positions));
@@ -382,6 +386,13 @@ pub fn regenerate(
     })
 }
 
+/// Refuses a garment for which there is no memory: the system is asked for as much as it takes, and gets it back at once.
+fn check_memory(levels: u8, faces: usize) -> Result<(), TemplateError> {
+    let bytes = faces.saturating_mul(BYTES_PER_FACE * faces.max(2).ilog2() as usize);
+    let mut probe: Vec<u8> = Vec::new();
+    probe.try_reserve_exact(bytes).map_err(|_| TemplateError::Memory { levels, faces, bytes })
+}
+
 fn check_reference(reference: &Reference) -> Result<(), TemplateError> {
     let bad = |what: &str| Err(TemplateError::BadReference(what.into()));
     if reference.mesh.faces.is_empty() {
@@ -471,5 +482,17 @@ fn settle(refined: &mut Refined, positions: &[DVec3]) {
     let joints: Vec<_> = refined.body.joint_ids().collect();
     for joint in joints {
         refined.body.order_joint(joint);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn memory_that_nobody_has_is_refused() {
+        assert_eq!(check_memory(3, 10_000), Ok(()));
+        let refused = check_memory(8, 1 << 50).unwrap_err();
+        assert!(matches!(refused, TemplateError::Memory { levels: 8, .. }), "{refused}");
     }
 }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use template::format::DEEPEST;
 
 use super::Unit;
 
@@ -48,7 +49,7 @@ pub(crate) struct Build {
     #[arg(long, value_name = "LIST", value_enum, value_delimiter = ',')]
     pub(crate) formats: Vec<Format>,
     /// How often every triangle of the template is split in four. Default: what the template says.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=7))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=i64::from(DEEPEST)))]
     pub(crate) levels: Option<u8>,
     /// Name of the size, as printed on the pieces.
     #[arg(long, value_name = "NAME", default_value = "MADE TO MEASURE")]

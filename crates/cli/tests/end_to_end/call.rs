@@ -1,6 +1,6 @@
 //! One call of the binary and what came of it.
 
-use std::ffi::OsStr;
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -15,10 +15,14 @@ pub(crate) struct Outcome {
     words: String,
 }
 
+/// The program that is tested.
+pub(crate) fn binary() -> OsString {
+    std::env::var_os("TOILE_BIN").unwrap_or_else(|| env!("CARGO_BIN_EXE_toile").into())
+}
+
 /// Calls the binary with nothing on standard input.
 pub(crate) fn toile<S: AsRef<OsStr>>(words: &[S]) -> Outcome {
-    let binary = std::env::var_os("TOILE_BIN").unwrap_or_else(|| env!("CARGO_BIN_EXE_toile").into());
-    let output = Command::new(binary).args(words).stdin(Stdio::null()).output().unwrap();
+    let output = Command::new(binary()).args(words).stdin(Stdio::null()).output().unwrap();
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("the program speaks UTF-8");
     let words = words.iter().map(|w| w.as_ref().to_string_lossy()).collect::<Vec<_>>().join(" ");
     Outcome { code: output.status.code(), stdout: text(output.stdout), stderr: text(output.stderr), words }

@@ -5,7 +5,7 @@ use std::path::Path;
 use mesh_kernel::query::ClosestPoint;
 use serde_json::Value;
 
-use crate::call::{Folder, has_keys, list, number, toile, word};
+use crate::call::{Folder, binary, has_keys, list, number, toile, word};
 use crate::fixtures::{dress, form, read, templates};
 
 /// What one regeneration writes.
@@ -291,4 +291,23 @@ fn a_body_in_inches_is_warned_of_and_read_when_said() {
     let body = folder.write("decimetres.obj", metres + &faces);
     toile(&["features", word(&body)]).refused(1, "--unit");
     toile(&["features", word(&body), "--unit", "m"]).refused(1, "metres high");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn more_splits_than_memory_are_refused_before_they_are_made() {
+    let folder = Folder::new("regenerate-memory");
+    let out = folder.join("out");
+    // Four gigabytes of addresses, of which the threads' stacks take some.
+    let shell = "ulimit -v 4000000; exec \"$0\" regenerate \"$1\" --body \"$2\" --out \"$3\" --levels 7";
+    let output = std::process::Command::new("sh")
+        .args(["-c", shell])
+        .arg(binary())
+        .args([word(dress()), word(form()), word(&out)])
+        .output()
+        .unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{told}");
+    assert!(told.contains("7 splits make") && told.contains("GB of memory"), "{told}");
+    assert!(!out.exists());
 }
