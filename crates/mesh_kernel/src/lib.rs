@@ -15,4 +15,4 @@ pub mod query;
 pub mod tri_mesh;
 
 pub use glam;
-pub use tri_mesh::{Group, TriMesh};
+pub use tri_mesh::{Group, MAX_COORDINATE, TriMesh};

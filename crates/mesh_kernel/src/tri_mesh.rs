@@ -2,6 +2,10 @@
 
 use glam::{DVec2, DVec3};
 
+/// Coordinates beyond this, in whatever unit, are those of a broken file: no model is a thousand kilometres wide, and their
+/// squares and cubes would soon be no numbers.
+pub const MAX_COORDINATE: f64 = 1e9;
+
 /// A named run of faces of a [`TriMesh`]: an OBJ group, one surface of a body.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Group {

@@ -1,6 +1,7 @@
 //! Flat drawings: pattern pieces, layouts, diagrams.
 
 use glam::DVec2;
+use mesh_kernel::MAX_COORDINATE;
 
 use crate::color::Color;
 use crate::error::{RenderError, check_size};
@@ -181,7 +182,7 @@ impl Drawing2d {
     }
 
     fn check(&self) -> Result<(), RenderError> {
-        let bad = |p: &DVec2| !(p.is_finite() && p.abs().max_element() <= 1e9);
+        let bad = |p: &DVec2| !(p.is_finite() && p.abs().max_element() <= MAX_COORDINATE);
         for (i, item) in self.items.iter().enumerate() {
             let index = match item {
                 Item2d::Polygon { rings, .. } => rings.iter().flatten().position(bad),

@@ -22,7 +22,10 @@ pub enum RenderError {
     #[error("there is nothing to draw: the scene has no faces, lines or points")]
     Empty,
     /// A coordinate that is no number or too large to be drawn.
-    #[error("{what} {index} has a coordinate that is not a number or beyond ±1e9 mm; mend the model first")]
+    #[error(
+        "{what} {index} has a coordinate that is not a number or beyond ±{limit:e} mm; mend the model first",
+        limit = mesh_kernel::MAX_COORDINATE
+    )]
     Coordinate {
         /// What the coordinate belongs to, such as "node of mesh 0".
         what: String,

@@ -1,7 +1,7 @@
 //! What a picture shows: the draw list.
 
 use glam::DVec3;
-use mesh_kernel::TriMesh;
+use mesh_kernel::{MAX_COORDINATE, TriMesh};
 use rayon::prelude::*;
 
 use crate::color::{Color, cloth_color};
@@ -204,9 +204,6 @@ pub struct Label {
     /// What becomes of it when its place is behind surfaces ([`Hidden::Dashed`] counts as faint).
     pub hidden: Hidden,
 }
-
-/// Coordinates beyond this (mm) are refused: no model is a thousand kilometres wide, a broken file may be.
-const MAX_COORDINATE: f64 = 1e9;
 
 impl Scene {
     /// Smallest and largest coordinates of everything but labels; `None` when there is nothing. O(n).

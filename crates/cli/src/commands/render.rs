@@ -44,15 +44,9 @@ pub(crate) fn run(words: &Render, speech: &Speech) -> Result<(), Failure> {
     };
     let unit = words.unit.map_or_else(|| guess_of_model(&model), Unit::millimetres);
     speech.step("drawing");
-    let picture = model_picture(&ModelPicture {
-        model: &model,
-        body: body.as_ref(),
-        unit,
-        color,
-        view,
-        width,
-        height,
-    })?;
+    let picture =
+        model_picture(&ModelPicture { model: &model, body: body.as_ref(), unit, color, view, width, height })
+            .map_err(|e| Failure::from(e).about(&words.model))?;
     write(&words.output, &picture.to_png())?;
     let done = Done { file: words.output.display().to_string(), width, height };
     speech.report(&done, || format!("{} ({width} x {height})\n", done.file))

@@ -8,6 +8,7 @@ mod solids;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use mesh_kernel::MAX_COORDINATE;
 
 pub(crate) use garments::*;
 pub(crate) use pictures::*;
@@ -104,10 +105,16 @@ impl Unit {
     }
 }
 
+/// What is said of a length that nothing has.
+fn too_long() -> String {
+    format!("it takes a number of millimetres, no more than {MAX_COORDINATE:e}")
+}
+
 /// A length that something can have.
 fn positive(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
-        Ok(x) if x.is_finite() && x > 0.0 => Ok(x),
+        Ok(x) if x > MAX_COORDINATE => Err(too_long()),
+        Ok(x) if x > 0.0 => Ok(x),
         _ => Err("it takes a number of millimetres larger than 0, such as 2 or 0.8".to_owned()),
     }
 }

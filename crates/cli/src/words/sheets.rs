@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use mesh_kernel::MAX_COORDINATE;
 
-use super::{Unit, positive};
+use super::{Unit, positive, too_long};
 
 /// Make a solid of a sheet: walls, corners at folds, joints of any number of sheets, strips along free edges.
 ///
@@ -210,7 +211,8 @@ pub(crate) enum Reliefs {
 
 fn not_negative(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
-        Ok(x) if x.is_finite() && x >= 0.0 => Ok(x),
+        Ok(x) if x > MAX_COORDINATE => Err(too_long()),
+        Ok(x) if x >= 0.0 => Ok(x),
         _ => Err("it takes a number of millimetres, not negative, such as 0 or 1.5".to_owned()),
     }
 }

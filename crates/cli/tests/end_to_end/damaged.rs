@@ -51,6 +51,7 @@ fn files_without_faces() {
 fn numbers_that_are_none() {
     all_refuse("nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     all_refuse("inf.obj", "v 0 0 inf\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    all_refuse("far.obj", "v 0 0 1e30\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     all_refuse("huge.obj", "v 0 0 1e999\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     all_refuse("words.off", "OFF\n3 1 0\n0 0 zero\n1 0 0\n0 1 0\n3 0 1 2\n");
     let mut bytes = b"ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n".to_vec();
@@ -59,6 +60,25 @@ fn numbers_that_are_none() {
     }
     bytes.extend([3, 0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]);
     all_refuse("nan.ply", bytes);
+}
+
+#[test]
+fn a_triangle_that_names_a_node_twice_is_found_by_its_number() {
+    let folder = Folder::new("damaged-twice");
+    let mesh = folder.write("twice.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\ng front\nf 1 2 3\nf 1 2 2\n");
+    let told = toile(&["check", word(&mesh)]).refused(1, "twice.obj");
+    assert!(told.stderr.contains("triangle 2, in group `front`,"), "{}", told.stderr);
+    assert!(told.stderr.contains("1, 2, 2 (counted from 1)"), "{}", told.stderr);
+}
+
+#[test]
+fn a_picture_that_cannot_be_drawn_names_its_file() {
+    let folder = Folder::new("damaged-picture");
+    // In metres, beyond what can be drawn in millimetres.
+    let mesh = folder.write("far.obj", "v 0 0 0\nv 1e8 0 0\nv 0 1 0\nf 1 2 3\n");
+    let out = folder.join("far.png");
+    toile(&["render", word(&mesh), "--unit", "m", "-o", word(&out)]).refused(1, "far.obj");
+    assert!(!out.exists());
 }
 
 #[test]

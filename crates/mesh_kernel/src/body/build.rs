@@ -71,6 +71,22 @@ pub enum BuildError {
         /// Its nodes.
         nodes: [u32; 3],
     },
+    /// A triangle of a mesh names one node twice.
+    #[error(
+        "triangle {triangle}{} of the mesh has the nodes {}, {}, {} (counted from 1), one of them twice; remove it",
+        if group.is_empty() { String::new() } else { format!(", in group `{group}`,") },
+        nodes[0],
+        nodes[1],
+        nodes[2]
+    )]
+    RepeatedCorner {
+        /// The group.
+        group: String,
+        /// The triangle, counted from 1 through the whole mesh.
+        triangle: usize,
+        /// Its nodes, likewise.
+        nodes: [usize; 3],
+    },
     /// A coordinate is not a finite number.
     #[error("surface `{surface}`: node {node} has a coordinate that is no finite number: {position}")]
     NotFinite {

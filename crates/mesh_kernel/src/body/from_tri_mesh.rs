@@ -115,7 +115,8 @@ fn check_input(mesh: &TriMesh) -> Result<(), BuildError> {
         }
         let [a, b, c] = *face;
         if a == b || b == c || c == a {
-            return Err(BuildError::RepeatedNode { surface: surface_of(f), face: f as u32, nodes: *face });
+            let nodes = face.map(|v| v as usize + 1);
+            return Err(BuildError::RepeatedCorner { group: surface_of(f), triangle: f + 1, nodes });
         }
     }
     if let Some(v) = mesh.positions.iter().position(|p| !p.is_finite()) {

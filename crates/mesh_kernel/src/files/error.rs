@@ -78,6 +78,15 @@ pub enum ReadError {
         /// Where.
         place: Place,
     },
+    /// A coordinate is larger than that of any model.
+    #[error(
+        "{place}: a coordinate is beyond ±{limit:e}; mend it, or write the file in a larger unit",
+        limit = crate::MAX_COORDINATE
+    )]
+    TooFar {
+        /// Where.
+        place: Place,
+    },
     /// A face refers to a vertex that does not exist.
     #[error("{place}: vertex {index} does not exist, the file has {count} (indices count from {first})")]
     IndexOutOfRange {
@@ -130,6 +139,16 @@ pub enum ReadError {
         /// Number of vertices.
         vertices: usize,
     },
+}
+
+/// What is wrong with numbers that are no coordinates.
+#[cold]
+pub(super) fn bad_coordinates(place: Place, numbers: &[f64]) -> ReadError {
+    if numbers.iter().all(|x| x.is_finite()) {
+        ReadError::TooFar { place }
+    } else {
+        ReadError::NotFinite { place }
+    }
 }
 
 /// At most 40 characters of `bytes` from `from` to the next blank, for messages.

@@ -8,8 +8,8 @@ use serde_json::json;
 use super::error::shortened;
 use super::gltf::{Document, Node, Numbers, Primitive, chunks, data_uri, get, malformed};
 use super::weld::{Welder, key};
-use super::{MAX_ELEMENTS, Place, Polyline, ReadError, WriteOptions};
-use crate::{Group, TriMesh};
+use super::{MAX_ELEMENTS, Place, Polyline, ReadError, WriteOptions, are_coordinates};
+use crate::{Group, MAX_COORDINATE, TriMesh};
 
 pub(super) fn parse(bytes: &[u8]) -> Result<TriMesh, ReadError> {
     let (text, binary) = chunks(bytes)?;
@@ -134,10 +134,13 @@ impl Reader<'_> {
         for k in 0..positions.count {
             let p = DVec3::new(positions.float(k, 0), positions.float(k, 1), positions.float(k, 2));
             let p = if place == DMat4::IDENTITY { p } else { place.transform_point3(p) };
-            if !p.is_finite() {
-                return Err(malformed(format!(
-                    "position {k} of accessor {accessor} is not finite (NaN or infinity)"
-                )));
+            if !are_coordinates(&p.to_array()) {
+                let what = if p.is_finite() {
+                    format!("beyond ±{MAX_COORDINATE:e}")
+                } else {
+                    "not finite (NaN or infinity)".to_owned()
+                };
+                return Err(malformed(format!("position {k} of accessor {accessor} is {what}")));
             }
             self.mesh.positions.push(p);
         }

@@ -31,7 +31,7 @@ pub(crate) mod weld;
 use std::fmt;
 use std::path::Path;
 
-use crate::TriMesh;
+use crate::{MAX_COORDINATE, TriMesh};
 use glam::DVec3;
 
 pub use error::{Place, ReadError};
@@ -164,6 +164,12 @@ pub fn to_bytes(format: Format, mesh: &TriMesh, options: &WriteOptions) -> Vec<u
         Format::Off => off::to_bytes(mesh, options),
         Format::Glb => glb::to_bytes(mesh, options),
     }
+}
+
+/// Whether all numbers may be coordinates; none of those that are not finite is.
+#[inline]
+fn are_coordinates(numbers: &[f64]) -> bool {
+    numbers.iter().all(|x| x.abs() <= MAX_COORDINATE)
 }
 
 /// Fails when a mesh would outgrow [`MAX_ELEMENTS`].

@@ -8,10 +8,10 @@ use std::ops::Range;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::error::excerpt;
+use super::error::{bad_coordinates, excerpt, shortened};
 use super::number::{ends_token, float, integer, push_float, push_integer, push_rounded};
 use super::weld::{Welder, key};
-use super::{Place, ReadError, WriteOptions, check_room};
+use super::{Format, Place, ReadError, WriteOptions, are_coordinates, check_room};
 use crate::{Group, TriMesh};
 
 /// No texture vertex at a corner.
@@ -165,8 +165,8 @@ impl Reader<'_> {
     fn coordinate(&mut self) -> Result<f64, ReadError> {
         self.skip_blanks();
         match float(self.bytes, &mut self.pos) {
-            Some(value) if value.is_finite() => Ok(value),
-            Some(_) => Err(ReadError::NotFinite { place: Place::Line(self.line) }),
+            Some(value) if are_coordinates(&[value]) => Ok(value),
+            Some(value) => Err(bad_coordinates(Place::Line(self.line), &[value])),
             None if self.pos >= self.bytes.len() => Err(ReadError::Truncated {
                 place: Place::Line(self.line),
                 expected: "a coordinate should follow".into(),
@@ -225,6 +225,9 @@ impl Reader<'_> {
     }
 
     fn finish(self) -> Result<TriMesh, ReadError> {
+        if self.positions.is_empty() && self.faces.is_empty() {
+            return Err(no_obj(self.bytes));
+        }
         let exists = |(index, line): (u32, usize), count: usize| {
             if (index as usize) < count || line == 0 {
                 return Ok(());
@@ -240,6 +243,26 @@ impl Reader<'_> {
         let runs = if self.groups.is_empty() { self.materials } else { self.groups };
         let groups = groups_of_runs(runs, self.faces.len() as u32);
         Ok(TriMesh { positions: self.positions, faces: self.faces, groups, corner_uvs })
+    }
+}
+
+/// What a file is that has neither vertices nor faces.
+fn no_obj(bytes: &[u8]) -> ReadError {
+    let wrong = |reason: String| ReadError::WrongMagic { format: Format::Obj, reason };
+    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+        return wrong("it is text in UTF-16; save it as UTF-8".to_owned());
+    }
+    if let Some(at) = bytes.iter().position(|b| *b == 0) {
+        return wrong(format!("it is not text, by a zero at byte {at}"));
+    }
+    let mut lines = (1..).zip(bytes.split(|b| *b == b'\n')).map(|(k, line)| (k, line.trim_ascii()));
+    match lines.find(|(_, line)| !line.is_empty() && !line.starts_with(b"#")) {
+        Some((k, line)) => {
+            let text = shortened(&String::from_utf8_lossy(&line[..line.len().min(400)]));
+            wrong(format!("no line of it begins with v or f; line {k} is '{text}'"))
+        }
+        None if bytes.trim_ascii().is_empty() => wrong("it is empty".to_owned()),
+        None => wrong("there are only comments in it".to_owned()),
     }
 }
 

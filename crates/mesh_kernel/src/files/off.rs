@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use super::error::excerpt;
+use super::error::{bad_coordinates, excerpt};
 use super::number::{ends_token, float, integer, push_float, push_integer, push_rounded};
 use super::obj::one_line;
-use super::{Format, Place, ReadError, WriteOptions, check_room};
+use super::{Format, Place, ReadError, WriteOptions, are_coordinates, check_room};
 use crate::TriMesh;
 
 struct Reader<'a> {
@@ -137,8 +137,8 @@ impl<'a> Reader<'a> {
     fn coordinate(&mut self) -> Result<f64, ReadError> {
         self.skip_blanks();
         match float(self.bytes, &mut self.pos) {
-            Some(value) if value.is_finite() => Ok(value),
-            Some(_) => Err(ReadError::NotFinite { place: Place::Line(self.line) }),
+            Some(value) if are_coordinates(&[value]) => Ok(value),
+            Some(value) => Err(bad_coordinates(Place::Line(self.line), &[value])),
             None => Err(self.bad("a coordinate")),
         }
     }

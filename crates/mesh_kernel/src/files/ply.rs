@@ -5,10 +5,10 @@
 
 use glam::{DVec2, DVec3};
 
-use super::error::excerpt;
+use super::error::{bad_coordinates, excerpt};
 use super::number::{ends_token, float, push_float, push_integer, push_rounded};
 use super::obj::one_line;
-use super::{Encoding, Format, Place, ReadError, WriteOptions, check_room};
+use super::{Encoding, Format, Place, ReadError, WriteOptions, are_coordinates, check_room};
 use crate::TriMesh;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -321,17 +321,19 @@ impl Reader<'_> {
                 }
             }
             if is_vertex {
-                let position = DVec3::from_array(position);
-                if !position.is_finite() || flats && !DVec2::from_array(flat).is_finite() {
-                    return Err(ReadError::NotFinite { place });
+                if !are_coordinates(&position) {
+                    return Err(bad_coordinates(place, &position));
                 }
-                mesh.positions.push(position);
+                if flats && !are_coordinates(&flat) {
+                    return Err(bad_coordinates(place, &flat));
+                }
+                mesh.positions.push(DVec3::from_array(position));
                 if let Some(all) = mesh.vertex_flats.as_mut() {
                     all.push(DVec2::from_array(flat));
                 }
             }
-            if corner_flats.iter().any(|value: &f64| !value.is_finite()) {
-                return Err(ReadError::NotFinite { place });
+            if !are_coordinates(&corner_flats) {
+                return Err(bad_coordinates(place, &corner_flats));
             }
             match polygon {
                 Some(Role::Indices) => mesh.polygon(&list, &corner_flats, place)?,

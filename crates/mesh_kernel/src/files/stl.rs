@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 
-use super::error::excerpt;
+use super::error::{bad_coordinates, excerpt};
 use super::number::{ends_token, float, push_float, push_rounded};
 use super::obj::one_line;
 use super::weld::{Welder, key};
-use super::{Encoding, Format, Place, ReadError, WriteOptions, check_room};
+use super::{Encoding, Format, Place, ReadError, WriteOptions, are_coordinates, check_room};
 use crate::{Group, TriMesh};
 
 /// Bytes before the first facet of a binary file, and of a facet.
@@ -66,8 +66,8 @@ fn binary(bytes: &[u8]) -> Result<TriMesh, ReadError> {
                 f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
             };
             let p = DVec3::new(number(0), number(1), number(2));
-            if !p.is_finite() {
-                return Err(ReadError::NotFinite { place: Place::Byte(HEAD + FACET * f + at) });
+            if !are_coordinates(&p.to_array()) {
+                return Err(bad_coordinates(Place::Byte(HEAD + FACET * f + at), &p.to_array()));
             }
             *node = builder.node(p);
         }
@@ -103,8 +103,8 @@ fn text(bytes: &[u8]) -> Result<TriMesh, ReadError> {
                     pos += 1;
                 }
                 *value = match float(bytes, &mut pos) {
-                    Some(value) if value.is_finite() => value,
-                    Some(_) => return Err(ReadError::NotFinite { place }),
+                    Some(value) if are_coordinates(&[value]) => value,
+                    Some(value) => return Err(bad_coordinates(place, &[value])),
                     None if pos >= bytes.len() => {
                         return Err(ReadError::Truncated {
                             place,

@@ -2,7 +2,7 @@
 
 use mesh_kernel::files::{Encoding, Format, Place, Polyline, ReadError, WriteOptions, parse, to_bytes};
 use mesh_kernel::glam::{DVec2, DVec3};
-use mesh_kernel::{Group, TriMesh};
+use mesh_kernel::{Group, MAX_COORDINATE, TriMesh};
 
 use crate::shapes::torus;
 
@@ -114,6 +114,26 @@ fn gltf_documents_with_transforms_and_other_layouts() {
     ] {
         let error = read(document(nodes, 4, kind)).unwrap_err();
         assert!(!error.to_string().is_empty(), "{nodes} {error}");
+    }
+}
+
+#[test]
+fn coordinates_have_one_limit_in_every_format() {
+    let mesh = |far: f64| {
+        TriMesh::new(vec![DVec3::ZERO, DVec3::X * far, DVec3::new(0.0, 1.0, -far)], vec![[0, 1, 2]])
+    };
+    let options = WriteOptions { glb_scale: 1.0, ..WriteOptions::default() };
+    let texts =
+        [Encoding::Ascii, Encoding::Binary].map(|encoding| WriteOptions { encoding, ..options.clone() });
+    for format in [Format::Obj, Format::Ply, Format::Stl, Format::Off, Format::Glb] {
+        for options in &texts {
+            let read = |far: f64| parse(format, &to_bytes(format, &mesh(far), options));
+            assert!(read(MAX_COORDINATE).is_ok(), "{format}");
+            for far in [1.01 * MAX_COORDINATE, 1e30] {
+                let told = read(far).unwrap_err().to_string();
+                assert!(told.contains("beyond ±1e9"), "{format}: {told}");
+            }
+        }
     }
 }
 

@@ -79,9 +79,28 @@ fn faults_are_named_with_their_line() {
     assert!(matches!(fault("v 0 nan 0\n"), ReadError::NotFinite { place: Place::Line(4) }));
     assert!(matches!(fault("v 0 1e999 0\n"), ReadError::NotFinite { .. }));
     assert!(matches!(fault("v 0 1,5 0\n"), ReadError::BadNumber { .. }));
-    assert!(matches!(parse(Format::Obj, b""), Err(ReadError::NoFaces { vertices: 0 })));
     // A face may come before its vertices.
     assert_eq!(obj("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n").unwrap().faces.len(), 1);
+}
+
+#[test]
+fn what_is_no_obj_is_told_by_what_it_is() {
+    let told = |bytes: &[u8]| match parse(Format::Obj, bytes) {
+        Err(e @ ReadError::WrongMagic { format: Format::Obj, .. }) => e.to_string(),
+        other => panic!("{other:?}"),
+    };
+    for (bytes, said) in [
+        (&b""[..], "it is empty"),
+        (b"\n \r\n", "it is empty"),
+        (b"# a comment\n", "only comments"),
+        (b"\xff\xfev\x00 \x001\x00", "UTF-16"),
+        (b"\x7fELF\x02\x00v 1 2 3\x00", "a zero at byte 5"),
+        (b"# saved\n\nsolid part\n facet normal 0 0 1\n", "line 3 is 'solid part'"),
+        (b"<html>\n<body>", "line 1 is '<html>'"),
+    ] {
+        let text = told(bytes);
+        assert!(text.contains(said) && text.contains("OBJ"), "{text}");
+    }
 }
 
 #[test]
