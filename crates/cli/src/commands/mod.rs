@@ -20,9 +20,10 @@ pub(crate) mod view;
 use std::path::Path;
 
 use design::units::FileUnit;
-use mesh_kernel::TriMesh;
 use mesh_kernel::body::{BODY_FILE_EXTENSION, Body};
 use mesh_kernel::files::{self, FileSet, Format};
+use mesh_kernel::glam::DVec3;
+use mesh_kernel::{MAX_COORDINATE, TriMesh};
 use reference::human::HumanError;
 
 use crate::failure::Failure;
@@ -53,7 +54,13 @@ fn read_body(path: &Path) -> Result<Body, Failure> {
     }
     let bytes =
         std::fs::read(path).map_err(|e| Failure::new(format!("cannot read {}: {e}", path.display())))?;
-    Body::from_file_bytes(&bytes).map_err(|e| Failure::new(format!("{}: {e}", path.display())))
+    let body = Body::from_file_bytes(&bytes).map_err(|e| Failure::new(format!("{}: {e}", path.display())))?;
+    let is_far = |p: &DVec3| p.abs().max_element() > MAX_COORDINATE;
+    if let Some((_, s)) = body.surfaces().find(|(_, s)| s.positions().iter().any(is_far)) {
+        let text = format!("surface `{}` has a coordinate beyond ±{MAX_COORDINATE:e}; mend it", s.name());
+        return Err(Failure::new(text).about(path));
+    }
+    Ok(body)
 }
 
 /// A native body is welded at its joints; of any other file the groups are the patches.
