@@ -71,7 +71,9 @@ fn refusal(error: ThickenFileError, words: &Thicken) -> Failure {
         ThickenFileError::Thickness(ThicknessError::NoSuchPatch { .. }) => (words.sheet.as_path(), None),
         ThickenFileError::Thickness(_) => (list.unwrap_or(&words.sheet), None),
         ThickenFileError::NotOneSided { .. } => (words.sheet.as_path(), Some("--side both takes any sheet")),
-        ThickenFileError::Sheet(_) | ThickenFileError::Coordinates(_) => (words.sheet.as_path(), None),
+        ThickenFileError::Sheet(_) | ThickenFileError::Coordinates(_) | ThickenFileError::Lost(_) => {
+            (words.sheet.as_path(), None)
+        }
     };
     let failure = Failure::from(error).about(about);
     match remedy {

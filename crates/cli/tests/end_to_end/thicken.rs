@@ -109,8 +109,8 @@ fn every_format_holds_the_same_solid() {
         // Seven digits of 40 mm are some millionths of a wall of 2 mm.
         let rounding = if matches!(format, "stl" | "glb") { 4e-6 } else { 1e-9 };
         near(number(&report["volume"]), tee_volume(40.0, 1.0), rounding);
-        near(number(&report["min_wall"]), 2.0, 1e-6);
-        near(number(&report["max_wall"]), 2.0, 1e-6);
+        near(number(&report["min_wall"]), 2.0, rounding.max(1e-6));
+        near(number(&report["max_wall"]), 2.0, rounding.max(1e-6));
         let mesh = read(&path);
         is_closed(&mesh);
         assert_eq!(mesh.faces.len() as u64, report["faces"].as_u64().unwrap());
@@ -302,6 +302,72 @@ fn what_has_no_area_is_refused() {
     let out = folder.join("solid.obj");
     toile(&["thicken", word(&line), "--thickness", "1", "-o", word(&out)]).refused(1, "line.obj");
     assert_eq!(folder.list(), ["line.obj"]);
+}
+
+/// A tray of two plates, `far` millimetres from the origin along x and y.
+fn far_tray(far: f64) -> String {
+    let text = plates(&[("floor", [1.0, 0.0]), ("wall", [0.0, 1.0])], 60.0, 2, 1.0);
+    let moved = |line: &str| match line.strip_prefix("v ") {
+        Some(numbers) => {
+            let p: Vec<f64> = numbers.split(' ').map(|n| n.parse().unwrap()).collect();
+            format!("v {} {} {}\n", p[0] + far, p[1] + far, p[2])
+        }
+        None => format!("{line}\n"),
+    };
+    text.lines().map(moved).collect()
+}
+
+#[test]
+fn what_is_reported_is_what_the_file_holds_far_from_the_origin() {
+    let folder = Folder::new("thicken-far");
+    let wanted = number(
+        &thickened(
+            &folder.write("near.obj", far_tray(0.0)),
+            &folder.join("near-solid.obj"),
+            &["--thickness", "2"],
+        )["volume"],
+    );
+    // A step of single precision is 1/32 mm at 300 m, 1/16 mm at 1 km.
+    for (far, format) in [(3e5, "stl"), (1e6, "stl"), (1e6, "glb"), (1e8, "obj")] {
+        let sheet = folder.write("far.obj", far_tray(far));
+        let solid = folder.join(&format!("solid.{format}"));
+        let report = thickened(&sheet, &solid, &["--thickness", "2"]);
+        let mesh = read(&solid);
+        is_closed(&mesh);
+        assert_eq!((&report["closed"], &report["components"]), (&true.into(), &1.into()));
+        let unit = if format == "glb" { 1e-3f64 } else { 1.0 };
+        let origin = mesh.positions[0];
+        let near_by = TriMesh::new(mesh.positions.iter().map(|p| *p - origin).collect(), mesh.faces.clone());
+        near(number(&report["volume"]), volume(&near_by) / unit.powi(3), 1e-6);
+        near(number(&report["volume"]), wanted, 0.03);
+        near(number(&report["min_wall"]), 2.0, 0.04);
+    }
+}
+
+#[test]
+fn walls_that_the_file_cannot_hold_are_refused_and_nothing_is_written() {
+    let folder = Folder::new("thicken-lost");
+    let cases = [
+        (1e8, "2", "stl", "nearer to the origin, or write OBJ"),
+        (1e8, "2", "glb", "nearer to the origin, or write OBJ"),
+        (0.0, "1e-5", "stl", "thicken more"),
+        (0.0, "1e-8", "obj", "thicken more"),
+        (0.0, "1e-7", "obj", "thicken more"),
+    ];
+    for (far, thickness, format, said) in cases {
+        let sheet = folder.write("sheet.obj", far_tray(far));
+        let solid = folder.write(&format!("kept.{format}"), "what was there");
+        let words = ["thicken", word(&sheet), "--thickness", thickness, "-o", word(&solid)];
+        let told = toile(&words).refused(1, "sheet.obj");
+        assert!(told.stderr.contains(said), "{far} {thickness}: {}", told.stderr);
+        assert_eq!(std::fs::read_to_string(&solid).unwrap(), "what was there");
+    }
+    // One thin patch of several is not left out either.
+    let sheet = folder.write("sheet.obj", far_tray(0.0));
+    let words = ["--thickness", "2", "--patch-thickness", "floor=1e-5", "-o", word(&folder.join("s.stl"))]
+        .map(str::to_owned);
+    let words = [&["thicken".to_owned(), word(&sheet).to_owned()], &words[..]].concat();
+    toile(&words).refused(1, "sheet.obj");
 }
 
 #[test]

@@ -17,6 +17,7 @@ use sheet::thicken::{Corners, Origin, Side, Step, ThickenError, ThickenOptions, 
 
 use crate::units::FileUnit;
 
+pub use place::Lost;
 pub use report::{NamedPlace, Roles, SheetFacts, ThickenFileReport};
 pub use thickness::{ThicknessError, ThicknessWish, list_from_json};
 
@@ -61,6 +62,9 @@ pub enum ThickenFileError {
     /// The solid could not be given the coordinates that the file can hold.
     #[error("the solid is too fine for the coordinates of the file: {0}")]
     Coordinates(MergeError),
+    /// The solid would not be the same in the coordinates that the file can hold.
+    #[error("{0}")]
+    Lost(#[from] Lost),
 }
 
 /// A solid, ready to be written.
@@ -102,19 +106,26 @@ pub fn thicken(
         MergeError::Cancelled => ThickenFileError::Sheet(ThickenError::Cancelled),
         other => ThickenFileError::Coordinates(other),
     })?;
-    let moved = parents.is_some();
-    let origins: Vec<Origin> = match parents {
-        Some(parents) => parents.iter().map(|&f| thickened.origins[f as usize]).collect(),
-        None => thickened.origins,
+    let (origins, measured) = match parents {
+        Some(parents) => {
+            let origins: Vec<Origin> = parents.iter().map(|&f| thickened.origins[f as usize]).collect();
+            let measured = thickened.measured_on(&solid, target.unit_of_file(), &origins);
+            place::check(&thickened, &solid, &measured, &parents, target)?;
+            if measured.components < thickened.report.components {
+                warnings.push(format!(
+                    "{} parts of the solid are {} in the file: they are nearer to each other than its numbers can tell",
+                    thickened.report.components, measured.components
+                ));
+            }
+            (origins, measured)
+        }
+        None => (thickened.origins, thickened.report),
     };
     let (solid, roles) = report::grouped_by_role(solid, &origins);
     clock.begin("encoding");
     let write = WriteOptions { glb_scale: target.unit_of_file() * 1e-3, ..WriteOptions::default() };
     let bytes = to_bytes(settings.format, &solid, &write);
-    let mut report = ThickenFileReport::new(&mesh, unit, &thickened.report, roles, warnings);
-    if moved {
-        report.measure_again(&solid, target.unit_of_file());
-    }
+    let mut report = ThickenFileReport::new(&mesh, unit, &measured, roles, warnings);
     report.step_seconds = clock.end();
     Ok(ThickenedFile { bytes, report })
 }

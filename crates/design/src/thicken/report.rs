@@ -1,6 +1,5 @@
 //! The report of a thickened sheet.
 
-use mesh_kernel::query::Crossings;
 use mesh_kernel::{Group, TriMesh};
 use serde::Serialize;
 use sheet::thicken::{Origin, PlaceKind, Purged, Role, ThickenReport};
@@ -146,18 +145,6 @@ impl ThickenFileReport {
             step_seconds: Vec::new(),
         }
     }
-
-    /// What a solid that was made anew for its file has; it is closed as it was.
-    pub(super) fn measure_again(&mut self, solid: &TriMesh, unit: f64) {
-        self.faces = solid.faces.len();
-        self.self_intersections = Crossings::new(solid).self_crossing().len();
-        let middle = solid.bounds().map_or_else(Default::default, |[lo, hi]| (lo + hi) / 2.0);
-        let six = |f: u32| {
-            let [a, b, c] = solid.corners(f).map(|p| p - middle);
-            a.cross(b).dot(c)
-        };
-        self.volume = (0..solid.faces.len() as u32).map(six).sum::<f64>() / 6.0 * unit.powi(3);
-    }
 }
 
 /// All roles, in the order of the groups.
@@ -204,16 +191,5 @@ mod tests {
         let groups: Vec<_> = mesh.groups.iter().map(|g| (g.name.as_str(), g.faces.clone())).collect();
         assert_eq!(groups, [("back_wall", 0..2), ("corners", 2..4)]);
         assert_eq!((counts.back_wall, counts.corners, counts.front_wall), (2, 2, 0));
-    }
-
-    #[test]
-    fn what_is_measured_again_is_in_millimetres() {
-        let positions = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
-        let mesh = TriMesh::new(positions, vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]);
-        let mut report =
-            ThickenFileReport::new(&mesh, 10.0, &ThickenReport::default(), Roles::default(), vec![]);
-        report.measure_again(&mesh, 10.0);
-        assert!((report.volume - 1000.0 / 6.0).abs() < 1e-9);
-        assert_eq!((report.faces, report.self_intersections), (4, 0));
     }
 }

@@ -22,6 +22,8 @@ pub(super) struct Grid {
     pub(super) near: f64,
     /// Farthest that this is ever stretched to, in cells.
     pub(super) farthest_near: f64,
+    /// How thin a region is that rounding made, in cells.
+    pub(super) film: f64,
 }
 
 /// How near things coincide, in cells of the finest grid: 6·10⁻¹¹ of the size. What rounding the corners of two walls in
@@ -29,6 +31,11 @@ pub(super) struct Grid {
 const NEAR: f64 = 64.0;
 /// The same on a coarse grid, whose cells are larger than what any formula leaves.
 const NEAR_ON_COARSE: f64 = 4.0;
+/// A region thinner than this many times the distance at which things coincide is a film.
+const FILM: f64 = 16.0;
+/// The same on a coarse grid, where walls of few cells are walls: what coincides there is apart by no more than two of that
+/// distance.
+const FILM_ON_COARSE: f64 = 2.0;
 /// Cells that it is stretched to on a coarse grid at most.
 const FARTHEST_ON_COARSE: f64 = 256.0;
 
@@ -40,13 +47,26 @@ impl Grid {
         let farthest = lo.abs().max(hi.abs()).max_element();
         let cell = power_above(half, bits as i32).max(power_above(farthest, DOUBLE_BITS));
         let near = (NEAR * (f64::from(bits) - f64::from(MAX_GRID_BITS)).exp2()).max(NEAR_ON_COARSE);
-        Self { cell, origin: (middle / cell).round() * cell, near, farthest_near: farthest_near(bits) }
+        Self {
+            cell,
+            origin: (middle / cell).round() * cell,
+            near,
+            farthest_near: farthest_near(bits),
+            film: FILM * near,
+        }
     }
 
     /// A grid about the origin whose every node is a number of `bits` binary digits.
     pub(super) fn about_zero(farthest: f64, bits: u32) -> Self {
         let cell = power_above(farthest, bits as i32);
-        Self { cell, origin: DVec3::ZERO, near: NEAR_ON_COARSE, farthest_near: farthest_near(bits) }
+        let near = NEAR_ON_COARSE;
+        let film = FILM_ON_COARSE * near;
+        Self { cell, origin: DVec3::ZERO, near, farthest_near: farthest_near(bits), film }
+    }
+
+    /// How thin a region is that rounding made, in the models' unit.
+    pub(super) fn thinnest(&self) -> f64 {
+        self.film * self.cell
     }
 
     /// The nearest node of the grid.

@@ -260,6 +260,15 @@ pub fn snapped_to_singles(
     Ok(snapped)
 }
 
+/// What is thinner than this is taken for what rounding leaves between walls, and is not in any result: the models' unit,
+/// by their size and how far from the origin they are.
+///
+/// # Errors
+/// As [`merge`] of coordinates that are no numbers and faces that name missing nodes.
+pub fn film_thickness(models: &[&TriMesh], options: &MergeOptions<'_>) -> Result<f64, MergeError> {
+    Ok(grid_over(models, options)?.thinnest())
+}
+
 fn solid_on(chain: &TriMesh, grid: Grid, options: &MergeOptions<'_>) -> Result<Solid, MergeError> {
     let merged = merge_on(&[chain], grid, true, options)?;
     let regions = merged.regions()?;

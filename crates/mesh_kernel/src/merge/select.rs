@@ -46,8 +46,6 @@ impl Solid {
     }
 }
 
-/// A region thinner than this many times the distance at which things coincide is a film.
-const FILM: f64 = 16.0;
 /// Part of a film's boundary that is its rim.
 const FEW: f64 = 0.05;
 
@@ -138,7 +136,7 @@ impl Merged {
             }
         }
         for r in 0..regions.count {
-            let thin = volume[r] >= 0.0 && 2.0 * volume[r] < FILM * self.grid.near * area[r];
+            let thin = volume[r] >= 0.0 && 2.0 * volume[r] < self.grid.film * area[r];
             // A film between wanted and unwanted space may stay what it is.
             if thin && (towards[r] < FEW * area[r] || towards[r] > (1.0 - FEW) * area[r]) {
                 keep[r] = towards[r] > 0.5 * area[r];

@@ -64,6 +64,19 @@ impl CleanSheet {
         if clean.faces.is_empty() { Err(ThickenError::Empty) } else { Ok(clean) }
     }
 
+    /// Refuses faces that are thinner than `least` all over, in millimetres: nothing of them would be left.
+    pub(super) fn check_thinnest(&self, least: f64) -> Result<(), ThickenError> {
+        let thickest = |t: &[f64; 3]| t.iter().copied().fold(0.0, f64::max);
+        match self.thickness.iter().position(|t| thickest(t) < least) {
+            Some(f) => Err(ThickenError::ThicknessTooSmall {
+                value: thickest(&self.thickness[f]),
+                least,
+                patch: self.patches[f],
+            }),
+            None => Ok(()),
+        }
+    }
+
     /// The three corners of face `f`.
     pub(super) fn corners(&self, f: usize) -> [DVec3; 3] {
         self.faces[f].map(|v| self.positions[v as usize])

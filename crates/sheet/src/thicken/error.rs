@@ -34,6 +34,19 @@ pub enum ThickenError {
         /// The sheet's diagonal.
         size: f64,
     },
+    /// A wall would be lost in the rounding of the coordinates.
+    #[error(
+        "a thickness of {value} mm is too small for the coordinates of the sheet: by its size and how far from the origin \
+         it lies, walls must be {least:.1e} mm thick at least; thicken more, or move the sheet nearer to the origin"
+    )]
+    ThicknessTooSmall {
+        /// The thickness.
+        value: f64,
+        /// What it must be at least.
+        least: f64,
+        /// The first patch that is so thin.
+        patch: u32,
+    },
     /// Another number of thicknesses than of patches or nodes.
     #[error("{given} thicknesses are given for {expected} {of}")]
     ThicknessCount {

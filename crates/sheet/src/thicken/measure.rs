@@ -84,6 +84,16 @@ pub(super) fn pieces(mesh: &TriMesh) -> Pieces {
     Pieces { closed, solids, genus }
 }
 
+/// What a closed mesh encloses, in cubes of its unit. O(n).
+pub(super) fn volume(mesh: &TriMesh) -> f64 {
+    let middle = mesh.bounds().map_or(DVec3::ZERO, |[lo, hi]| 0.5 * (lo + hi));
+    let six = |f: u32| {
+        let [a, b, c] = mesh.corners(f).map(|p| p - middle);
+        a.dot(b.cross(c))
+    };
+    (0..mesh.faces.len() as u32).map(six).sum::<f64>() / 6.0
+}
+
 /// The representative of `v`, with paths halved on the way.
 pub(super) fn root(parents: &mut [u32], mut v: u32) -> u32 {
     while parents[v as usize] != v {
@@ -93,14 +103,21 @@ pub(super) fn root(parents: &mut [u32], mut v: u32) -> u32 {
     v
 }
 
-/// The thinnest and the thickest wall over the middles of the sheet's faces whose two sides are whole in the solid;
-/// zeros where there is none. O(n).
-pub(super) fn wall_range(
+/// A face of the sheet whose walls are whole on both sides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct WholeWall {
+    /// The face, counted in the input sheet.
+    face: u32,
+    normal: DVec3,
+}
+
+/// The faces of the sheet whose two sides are whole in the solid, ascending. O(n).
+pub(super) fn whole_walls(
     sheet: &CleanSheet,
     chain: &OffsetChain,
     solid: &TriMesh,
     origins: &[Origin],
-) -> [f64; 2] {
+) -> Vec<WholeWall> {
     let sides = |mesh: &TriMesh, origins: &[Origin]| {
         let mut areas = vec![[0.0; 2]; sheet.faces.len()];
         for (f, origin) in origins.iter().enumerate() {
@@ -111,20 +128,34 @@ pub(super) fn wall_range(
         areas
     };
     let (ideal, found) = (sides(&chain.mesh, &chain.origins), sides(solid, origins));
-    let mut middles = vec![[DVec3::ZERO; 2]; sheet.faces.len()];
-    for (f, origin) in chain.origins.iter().enumerate() {
-        if let (Some(side), Some(face)) = (side_of(origin.role), sheet.face_of_source(origin.face)) {
-            middles[face][side] = chain.mesh.corners(f as u32).iter().sum::<DVec3>() / 3.0;
+    let is_whole = |f: &usize| {
+        (0..2).all(|s| ideal[*f][s] > 0.0 && (found[*f][s] - ideal[*f][s]).abs() <= WHOLE * ideal[*f][s])
+    };
+    let wall = |f: usize| WholeWall { face: sheet.sources[f], normal: sheet.normals[f] };
+    (0..sheet.faces.len()).filter(is_whole).map(wall).collect()
+}
+
+/// The thinnest and the thickest of some walls, as far apart as the middles of their two sides are in a solid; zeros where
+/// there is none. O(n log n).
+pub(super) fn wall_range(walls: &[WholeWall], solid: &TriMesh, origins: &[Origin]) -> [f64; 2] {
+    // Twice the area and the sum of middles by it, for both sides; the middle of the first face is the origin, for accuracy.
+    let mut sums = vec![[(0.0, DVec3::ZERO); 2]; walls.len()];
+    let base = solid.faces.first().map_or(DVec3::ZERO, |f| solid.positions[f[0] as usize]);
+    for (f, origin) in (0..).zip(origins) {
+        let wall = walls.binary_search_by_key(&origin.face, |w| w.face);
+        if let (Some(side), Ok(wall)) = (side_of(origin.role), wall) {
+            let (area, sum) = &mut sums[wall][side];
+            let twice = solid.area_normal(f).length();
+            let middle = solid.corners(f).iter().map(|p| *p - base).sum::<DVec3>() / 3.0;
+            *area += twice;
+            *sum += twice * middle;
         }
     }
     let mut range: Option<[f64; 2]> = None;
-    for f in 0..sheet.faces.len() {
-        let whole =
-            (0..2).all(|s| ideal[f][s] > 0.0 && (found[f][s] - ideal[f][s]).abs() <= WHOLE * ideal[f][s]);
-        if whole {
-            let wall = sheet.normals[f].dot(middles[f][0] - middles[f][1]).abs();
-            range = Some(range.map_or([wall; 2], |[lo, hi]| [lo.min(wall), hi.max(wall)]));
-        }
+    for (wall, sides) in walls.iter().zip(sums).filter(|(_, s)| s.iter().all(|(area, _)| *area > 0.0)) {
+        let [front, back] = sides.map(|(area, sum)| sum / area);
+        let thick = wall.normal.dot(front - back).abs();
+        range = Some(range.map_or([thick; 2], |[lo, hi]| [lo.min(thick), hi.max(thick)]));
     }
     range.unwrap_or_default()
 }

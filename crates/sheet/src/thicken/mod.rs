@@ -28,20 +28,24 @@ pub use error::ThickenError;
 pub use options::{Corners, Side, ThickenOptions, Thickness};
 pub use report::{Origin, Place, PlaceKind, Purged, Role, ThickenReport};
 
-use mesh_kernel::merge::{MergeOptions, Solid, solid_of_chain};
+use mesh_kernel::merge::{MergeOptions, Solid, film_thickness, solid_of_chain};
 use mesh_kernel::query::Crossings;
 use mesh_kernel::{Group, TriMesh};
 
 use chain::{Offsetting, check_options};
 use clean_sheet::CleanSheet;
 use entities::Entities;
-use measure::{pieces, wall_range};
+use measure::{Shells, WholeWall, pieces, shells, volume, wall_range, whole_walls};
 use places::places;
 use tidy::tidy;
 use voids::fill_voids;
 
 /// A thickness of more than this many times the sheet's diagonal is refused.
 pub const MAX_THICKNESS: f64 = 10.0;
+
+/// A wall is so many times as thick as what the union takes for rounding: of two offsets and what is between them, each must
+/// be told from it.
+const WALL_OF_FILMS: f64 = 4.0;
 
 /// A thickened sheet.
 #[derive(Clone, Debug)]
@@ -52,6 +56,38 @@ pub struct Thickened {
     pub origins: Vec<Origin>,
     /// Counts, measures, and the places that deserve a look.
     pub report: ThickenReport,
+    walls: Vec<WholeWall>,
+}
+
+impl Thickened {
+    /// The report on the solid as something else made it anew, with coordinates that a file can hold, say, of `unit`
+    /// millimetres. `origins` are those of its faces. O(n log n).
+    pub fn measured_on(&self, solid: &TriMesh, unit: f64, origins: &[Origin]) -> ThickenReport {
+        let pieces = pieces(solid);
+        let walls = wall_range(&self.walls, solid, origins);
+        let [min_wall, max_wall] = walls.map(|wall| wall * unit);
+        ThickenReport {
+            faces: solid.faces.len(),
+            closed: pieces.closed,
+            self_intersections: Crossings::new(solid).self_crossing().len(),
+            volume: volume(solid) * unit.powi(3),
+            components: pieces.solids,
+            genus: pieces.genus,
+            min_wall,
+            max_wall,
+            ..self.report.clone()
+        }
+    }
+
+    /// Connected solids none of whose faces is among `parents`: what something that made the solid anew left out. O(n).
+    pub fn lost_parts(&self, parents: &[u32]) -> usize {
+        let Shells { of_node, volumes } = shells(&self.solid);
+        let mut is_kept: Vec<bool> = volumes.iter().map(|v| *v <= 0.0).collect();
+        for &f in parents {
+            is_kept[of_node[self.solid.faces[f as usize][0] as usize] as usize] = true;
+        }
+        is_kept.iter().filter(|kept| !**kept).count()
+    }
 }
 
 /// Steps of the work, for progress.
@@ -127,6 +163,7 @@ pub fn thicken(
     begin(Step::Union)?;
     let cancelled = || watcher.cancelled();
     let merge = MergeOptions { cancelled: &cancelled, ..MergeOptions::default() };
+    sheet.check_thinnest(WALL_OF_FILMS * film_thickness(&[&chain.mesh], &merge)?)?;
     let mut united = solid_of_chain(&chain.mesh, &merge)?;
     let voids_filled = fill_voids(&sheet, &chain, options.side, &mut united);
     let (redundant, self_intersections) = purge_redundant(&chain, &mut united);
@@ -135,7 +172,8 @@ pub fn thicken(
     let (purged, beads) = (united.purged, united.beads);
     let (solid, origins) = by_role(united, &chain.origins);
     let pieces = pieces(&solid);
-    let [min_wall, max_wall] = wall_range(&sheet, &chain, &solid, &origins);
+    let walls = whole_walls(&sheet, &chain, &solid, &origins);
+    let [min_wall, max_wall] = wall_range(&walls, &solid, &origins);
     let report = ThickenReport {
         faces: solid.faces.len(),
         closed: pieces.closed,
@@ -158,7 +196,7 @@ pub fn thicken(
         places: places(&sheet, &chain, &solid, &origins),
         turned: chain.turned,
     };
-    Ok(Thickened { solid, origins, report })
+    Ok(Thickened { solid, origins, report, walls })
 }
 
 /// Takes redundant entities away, unless faces would cross then, which no plane that is one allows; returns how many, and

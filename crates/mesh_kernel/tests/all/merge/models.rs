@@ -160,6 +160,18 @@ fn single_precision_keeps_solids_sound() {
     }
 }
 
+#[test]
+fn walls_of_a_few_steps_of_single_precision_stay() {
+    for (far, wall) in [(0.0, 2e-4), (3e5, 2.0), (1e6, 2.0), (3e6, 4.0)] {
+        let corner = DVec3::new(far, far, 0.0);
+        let plate = block(corner, corner + DVec3::new(80.0, 60.0, wall));
+        let snapped = snapped_to_singles(&plate, 1.0, &MergeOptions::default()).unwrap();
+        assert_eq!(fault(&snapped.mesh), None);
+        let (found, wanted) = (snapped.volume(), 80.0 * 60.0 * wall);
+        assert!((found - wanted).abs() < 0.02 * wanted, "{far}: {found} is not {wanted}");
+    }
+}
+
 fn random_shift(k: i32) -> DVec3 {
     DVec3::new(1.0, 0.3, -0.7) * 10f64.powi(1 - k)
 }
