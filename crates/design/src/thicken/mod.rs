@@ -89,7 +89,7 @@ pub fn thicken(
 ) -> Result<ThickenedFile, ThickenFileError> {
     let clock = Clock::new(watcher);
     let unit = FileUnit::of_sheet(settings.unit, settings.read_from, sheet, settings.thickness.thickest());
-    let warnings: Vec<String> = unit.warning().into_iter().collect();
+    let mut warnings: Vec<String> = unit.warning().into_iter().collect();
     let unit = unit.millimetres;
     let (mut mesh, thickness) = settings.thickness.on(sheet)?;
     mesh.positions.iter_mut().for_each(|p| *p *= unit);
