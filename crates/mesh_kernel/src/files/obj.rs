@@ -259,7 +259,9 @@ fn no_obj(bytes: &[u8]) -> ReadError {
     match lines.find(|(_, line)| !line.is_empty() && !line.starts_with(b"#")) {
         Some((k, line)) => {
             let text = shortened(&String::from_utf8_lossy(&line[..line.len().min(400)]));
-            wrong(format!("no line of it begins with v or f; line {k} is '{text}'"))
+            wrong(format!(
+                "it has neither nodes (lines v X Y Z) nor faces (lines f A B C); line {k} is '{text}'"
+            ))
         }
         None if bytes.trim_ascii().is_empty() => wrong("it is empty".to_owned()),
         None => wrong("there are only comments in it".to_owned()),

@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 /// Writes `bytes` beside `path` and renames: whoever looks sees the old file or the whole new one.
 ///
-/// A symbolic link stays one: the file that it leads to is written. A file that was there hands its permissions on. What is
-/// no file, a pipe say, is written as it is.
+/// A symbolic link stays one: the file that it leads to is written. A file that was there hands its permissions on; one that may not be written is
+/// not. What is no file, a pipe say, is written as it is, and what a program's output goes to, as `/dev/stdout`, gets it at its end.
 ///
 /// # Errors
 /// What the file system says; nothing is left beside `path` then.
@@ -39,9 +39,15 @@ impl FileSet {
     /// Writes a file beside its place.
     ///
     /// # Errors
-    /// [`NotPlaced`].
+    /// [`NotPlaced`]; also when the set has another file for that place.
     pub fn add(&mut self, path: &Path, bytes: &[u8]) -> Result<(), NotPlaced> {
-        let part = Part::write(path, bytes).map_err(|source| NotPlaced { path: path.to_owned(), source })?;
+        let refused = |source: io::Error| NotPlaced { path: path.to_owned(), source };
+        let part = Part::write(path, bytes).map_err(refused)?;
+        let is_same = |other: &Part| matches!(part.state, State::Beside(_)) && other.path == part.path;
+        if self.parts.iter().any(is_same) {
+            let text = "two files would be written to this one place; give one of them another name";
+            return Err(refused(io::Error::new(io::ErrorKind::AlreadyExists, text)));
+        }
         self.parts.push(part);
         Ok(())
     }
@@ -84,10 +90,16 @@ impl Part {
         // Two threads may write the same path at once; each needs a name of its own.
         static COUNTER: AtomicU32 = AtomicU32::new(0);
         let earlier = fs::metadata(path).ok();
-        if earlier.as_ref().is_some_and(|e| !e.is_file() && !e.is_dir()) {
+        let is_file = earlier.as_ref().is_none_or(|e| e.is_file() || e.is_dir());
+        let Some(path) = followed(path)?.filter(|_| is_file) else {
             return Ok(Self { path: path.to_owned(), state: State::Waiting(bytes.to_vec()) });
+        };
+        if earlier.as_ref().is_some_and(|e| e.is_file() && e.permissions().readonly()) {
+            return Err(io::Error::new(
+                io::ErrorKind::PermissionDenied,
+                "it is protected from being written",
+            ));
         }
-        let path = followed(path)?;
         let Some(name) = path.file_name() else {
             return Err(io::Error::new(io::ErrorKind::InvalidInput, "the path names no file"));
         };
@@ -110,7 +122,7 @@ impl Part {
     fn place(mut self) -> io::Result<()> {
         match &self.state {
             State::Beside(beside) => fs::rename(beside, &self.path)?,
-            State::Waiting(bytes) => File::options().write(true).open(&self.path)?.write_all(bytes)?,
+            State::Waiting(bytes) => File::options().append(true).open(&self.path)?.write_all(bytes)?,
             State::Placed => {}
         }
         self.state = State::Placed;
@@ -127,15 +139,19 @@ impl Drop for Part {
     }
 }
 
-/// Where symbolic links lead, whether there is a file or not.
-fn followed(path: &Path) -> io::Result<PathBuf> {
+/// Where symbolic links lead, whether there is a file or not; `None` if that is what a program has open: a file by that name is not what is asked
+/// for.
+fn followed(path: &Path) -> io::Result<Option<PathBuf>> {
     /// As many as systems follow themselves.
     const LINKS: usize = 40;
     let mut path = path.to_owned();
     for _ in 0..LINKS {
+        if ["/dev", "/proc"].iter().any(|system| path.starts_with(system)) {
+            return Ok(None);
+        }
         match fs::read_link(&path) {
             // What is no link, or not there, is where the way ends.
-            Err(_) => return Ok(path),
+            Err(_) => return Ok(Some(path)),
             Ok(next) => path = path.parent().unwrap_or(Path::new("")).join(next),
         }
     }

@@ -2,6 +2,7 @@
 #![cfg(unix)]
 
 use std::fs;
+use std::io::ErrorKind;
 use std::os::unix::fs::{FileTypeExt as _, PermissionsExt as _, symlink};
 use std::path::Path;
 
@@ -33,12 +34,29 @@ fn permissions_stay() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("own");
     fs::write(&file, "old").unwrap();
-    for mode in [0o600, 0o640, 0o444] {
+    for mode in [0o600, 0o640, 0o664] {
         fs::set_permissions(&file, fs::Permissions::from_mode(mode)).unwrap();
         write_atomically(&file, b"new").unwrap();
         assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, mode);
         assert_eq!(fs::read(&file).unwrap(), b"new");
     }
+    fs::set_permissions(&file, fs::Permissions::from_mode(0o444)).unwrap();
+    assert_eq!(write_atomically(&file, b"newer").unwrap_err().kind(), ErrorKind::PermissionDenied);
+    assert_eq!(fs::read(&file).unwrap(), b"new");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+/// What a program has open is written on, by whatever links it is called.
+#[test]
+fn what_is_open_keeps_what_it_held() {
+    use std::os::fd::AsRawFd as _;
+    let folder = tempfile::tempdir().unwrap();
+    let [file, link] = ["file", "link"].map(|n| folder.path().join(n));
+    fs::write(&file, "old ").unwrap();
+    let open = fs::File::options().append(true).open(&file).unwrap();
+    symlink(format!("/dev/fd/{}", open.as_raw_fd()), &link).unwrap();
+    write_atomically(&link, b"new").unwrap();
+    assert_eq!(fs::read(&file).unwrap(), b"old new");
 }
 
 #[test]

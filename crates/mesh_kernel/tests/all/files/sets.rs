@@ -24,6 +24,7 @@ fn sets_are_placed_whole_or_not_at_all() {
     let mut set = FileSet::default();
     set.add(&one, b"newer").unwrap();
     assert!(set.add(&folder.path().join("no/where"), b"newer").is_err());
+    assert_eq!(set.add(&one, b"another").unwrap_err().path, one, "two for one place");
     drop(set);
     assert_eq!(fs::read(&one).unwrap(), b"new");
     let mut names: Vec<_> = fs::read_dir(folder.path()).unwrap().map(|e| e.unwrap().file_name()).collect();
