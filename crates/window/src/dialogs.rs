@@ -135,7 +135,7 @@ pub(crate) fn path(
         ui.label("That is a file: write the name of a folder.");
     }
     if matches!(purpose, Purpose::SaveAs(_)) && kind_of_name(&target) == FileKind::Template {
-        ui.label("A .json holds the template alone: without the body, loose edges and drawn curves.");
+        ui.label("A .json holds the template alone: without the body, loose edges, drawn curves and the drawing board.");
     }
     ui.horizontal(|ui| {
         let says_over = is_over && !is_refused;

@@ -6,6 +6,7 @@ use std::time::Instant;
 use design::draft::{BodySource, Draft, FileKind, History, Journal, Mesh, SourceFile};
 use design::regenerate::{Artifact, ExportStep, Regenerated};
 use mesh_kernel::files::{Format, write_atomically};
+use sketch::Drawing;
 use template::Template;
 
 use crate::workshop::Stop;
@@ -85,6 +86,13 @@ pub(crate) fn save(draft: &Draft, path: &Path) -> Result<SourceFile, String> {
         .map_err(|e| format!("{} could not be saved: {e}; choose another place", path.display()))
 }
 
+/// Whether a file of some kind holds all that was made. A template is without the body, which has a file of its own.
+pub(crate) fn holds_work(kind: FileKind, draft: &Draft) -> bool {
+    let is_made =
+        !draft.wires.is_empty() || !draft.features.is_empty() || draft.drawing != Drawing::default();
+    kind != FileKind::Template || !is_made
+}
+
 /// What a template file does not hold of a draft, in words; `None` when it holds all.
 pub(crate) fn left_out(draft: &Draft) -> Option<String> {
     let wires = draft.wires.len();
@@ -94,6 +102,7 @@ pub(crate) fn left_out(draft: &Draft) -> Option<String> {
         (wires > 0).then(|| format!("{wires} edges without faces")),
         (curves > 0).then(|| format!("{curves} drawn curves")),
         body.then(|| "the body".to_owned()),
+        (draft.drawing != Drawing::default()).then(|| "the drawing board".to_owned()),
     ];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
     (!parts.is_empty()).then(|| parts.join(", "))

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use design::draft::{Autosave, Command, Draft, Edit, EditError, History, SourceFile};
 use eframe::egui;
 
+use crate::files::holds_work;
 use crate::selection::{Mode, Selection};
 
 /// A design that is being worked on.
@@ -56,11 +57,14 @@ impl Session {
         !Arc::ptr_eq(&self.saved, self.history.draft())
     }
 
-    /// The draft is in this file now.
+    /// The draft is in this file now, or what that holds of it: then the journal stays.
     pub(crate) fn saved_to(&mut self, file: SourceFile) {
+        let is_whole = holds_work(file.kind, self.history.draft());
         self.file = Some(file);
-        self.saved = Arc::clone(self.history.draft());
-        self.autosave.saved();
+        if is_whole {
+            self.saved = Arc::clone(self.history.draft());
+            self.autosave.saved();
+        }
     }
 
     /// The file as a journal names it, for a program that starts elsewhere.

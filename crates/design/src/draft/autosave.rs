@@ -1,6 +1,6 @@
 //! Work that survives a kill: journals written in the background, found again at the next start.
 
-use std::fs::{File, TryLockError};
+use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -158,6 +158,10 @@ impl Drop for Autosave {
             // A writer that panicked has nothing more to write.
             let _ = writer.join();
         }
+        // What a panic ends is what a journal is for.
+        if std::thread::panicking() {
+            return;
+        }
         self.place.clear();
         let _ = std::fs::remove_file(lock_of(&self.place.path));
     }
@@ -206,8 +210,11 @@ pub fn recoveries(folder: &Path) -> Vec<Recovery> {
     found
 }
 
-/// Whether the program that writes a journal still runs: its lock is held. Where there are no locks none does.
+/// Whether the program that writes a journal still runs: its lock is held, or cannot be told from a held one. Where there are no locks none does.
 fn runs(journal: &Path) -> bool {
-    let lock = File::open(lock_of(journal));
-    lock.is_ok_and(|file| matches!(file.try_lock(), Err(TryLockError::WouldBlock)))
+    // Network file systems lock only what is open to be written.
+    match File::options().read(true).write(true).open(lock_of(journal)) {
+        Ok(lock) => lock.try_lock().is_err(),
+        Err(error) => error.kind() != std::io::ErrorKind::NotFound,
+    }
 }

@@ -116,6 +116,8 @@ impl Draft {
             let text: String = e.to_string().chars().take(300).collect();
             DraftFileError::Format(text)
         };
+        // Some editors put a mark before the text.
+        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         let head: Head = serde_json::from_slice(bytes).map_err(wrong)?;
         let newer = |found: u64, known: u32| {
             if found > u64::from(known) { Err(DraftFileError::Newer { found, known }) } else { Ok(()) }
