@@ -1,6 +1,6 @@
 //! One template on many bodies: what fails is reported and the rest goes on; an interrupted run is taken up again.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -218,17 +218,25 @@ fn one(
 
 /// Folder names: the files' stems; a stem that comes again gets a number, and so does what the batch names its own list.
 fn folder_names(bodies: &[PathBuf]) -> Vec<String> {
+    // Many systems take names that differ in case for one.
+    let key = |name: &str| name.to_lowercase();
     let mut seen: BTreeMap<String, usize> = BTreeMap::new();
     let stems: Vec<String> = bodies.iter().map(|p| stem(p)).collect();
+    let wanted: BTreeSet<String> = stems.iter().map(|stem| key(stem)).collect();
+    let mut taken: BTreeSet<String> = BTreeSet::new();
     let mut names: Vec<String> = Vec::with_capacity(stems.len());
     for stem in &stems {
-        let count = seen.entry(stem.clone()).or_insert(0);
+        let count = seen.entry(key(stem)).or_insert(0);
         *count += 1;
         let mut name = if *count == 1 { stem.clone() } else { format!("{stem}-{count}") };
-        while names.contains(&name) || is_list(&name) || (*count > 1 && stems.contains(&name)) {
+        while taken.contains(&key(&name))
+            || is_list(&key(&name))
+            || (*count > 1 && wanted.contains(&key(&name)))
+        {
             *count += 1;
             name = format!("{stem}-{count}");
         }
+        taken.insert(key(&name));
         names.push(name);
     }
     names
@@ -263,9 +271,9 @@ mod tests {
     #[test]
     fn folders_do_not_collide() {
         let bodies: Vec<PathBuf> =
-            ["a/x.obj", "b/x.ply", "x-2.obj", "c/x.stl"].iter().map(PathBuf::from).collect();
+            ["a/x.obj", "b/x.ply", "x-2.obj", "c/x.stl", "d/X.obj"].iter().map(PathBuf::from).collect();
         let names = folder_names(&bodies);
-        let mut unique = names.clone();
+        let mut unique: Vec<String> = names.iter().map(|name| name.to_lowercase()).collect();
         unique.sort();
         unique.dedup();
         assert_eq!(unique.len(), bodies.len(), "{names:?}");

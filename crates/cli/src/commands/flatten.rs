@@ -56,7 +56,12 @@ pub(crate) fn run(words: &Flatten, speech: &Speech) -> Result<(), Failure> {
             words.mesh.display()
         )));
     }
-    let unit = FileUnit::of_pieces(words.unit.map(Unit::millimetres), Format::of_path(&words.mesh), &mesh);
+    let (said, format) = (words.unit.map(Unit::millimetres), Format::of_path(&words.mesh));
+    // What is drawn is to be cut; a mesh keeps its numbers.
+    let unit = match kind {
+        Kind::Obj => FileUnit::of_format(said, format),
+        Kind::Svg | Kind::Dxf | Kind::Pdf => FileUnit::of_pieces(said, format, &mesh),
+    };
     for p in &mut mesh.positions {
         *p *= unit.millimetres;
     }

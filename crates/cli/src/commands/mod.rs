@@ -37,7 +37,9 @@ fn read_mesh(path: &Path) -> Result<TriMesh, Failure> {
 /// Why a mesh is no body to be measured, and what can be done.
 fn body_refusal(error: HumanError, path: &Path) -> Failure {
     let remedy = match &error {
-        HumanError::Height { .. } => Some("--unit inch takes it for one in inches"),
+        HumanError::Height { height } if (500.0..2500.0).contains(&(height * Unit::Inch.millimetres())) => {
+            Some("--unit inch takes it for one in inches")
+        }
         _ => None,
     };
     let failure = Failure::from(error).about(path);

@@ -228,7 +228,7 @@ pub(crate) struct Flatten {
     /// Seam allowance in millimetres, at most 10000.
     #[arg(long, value_name = "MM", default_value_t = 0.0)]
     pub(crate) allowance: f64,
-    /// Unit of the mesh. Default: metres for GLB; else millimetres, or metres where it is only a few units large.
+    /// Unit of the mesh. Default: metres for GLB; else millimetres, or metres where it is only a few units large and is drawn to be cut.
     #[arg(long, value_enum)]
     pub(crate) unit: Option<Unit>,
 }

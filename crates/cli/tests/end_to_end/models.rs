@@ -132,6 +132,10 @@ fn flatten_takes_the_units_that_other_commands_take() {
     // No piece is a millimetre large: that is a garment in metres, and said so.
     let (large, guessed) = area(&sheet("garment.obj", 1.0), &[]);
     assert!((large - 1e6).abs() < 1e-3 && guessed);
+    let flat_mesh = folder.join("flat.obj");
+    toile(&["flatten", word(&sheet("unit.obj", 1.0)), "-o", word(&flat_mesh)]).succeeded();
+    let info = toile(&["info", word(&flat_mesh), "--json"]).succeeded().json();
+    assert!((number(&info["area"]) - 1.0).abs() < 1e-9, "a mesh keeps its numbers: {info}");
     let (tiny, guessed) = area(&sheet("tiny.obj", 1.0), &["--unit", "mm"]);
     assert!((tiny - 1.0).abs() < 1e-9 && !guessed);
     area(&sheet("tiny.obj", 1.0), &["--unit", "mm", "--allowance", "0.1"]);

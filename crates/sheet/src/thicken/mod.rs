@@ -79,10 +79,14 @@ impl Thickened {
         }
     }
 
-    /// Connected solids none of whose faces is among `parents`: what something that made the solid anew left out. O(n).
+    /// Connected solids none of whose faces is among `parents`: what something that made the solid anew left out. Those that are next to nothing
+    /// beside the whole do not count. O(n).
     pub fn lost_parts(&self, parents: &[u32]) -> usize {
+        /// The volume of a crumb that the union left, over that of all.
+        const CRUMB: f64 = 1e-6;
         let Shells { of_node, volumes } = shells(&self.solid);
-        let mut is_kept: Vec<bool> = volumes.iter().map(|v| *v <= 0.0).collect();
+        let crumb = CRUMB * volumes.iter().filter(|v| **v > 0.0).sum::<f64>();
+        let mut is_kept: Vec<bool> = volumes.iter().map(|v| *v <= crumb).collect();
         for &f in parents {
             is_kept[of_node[self.solid.faces[f as usize][0] as usize] as usize] = true;
         }
