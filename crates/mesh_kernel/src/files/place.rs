@@ -146,7 +146,7 @@ fn followed(path: &Path) -> io::Result<Option<PathBuf>> {
     const LINKS: usize = 40;
     let mut path = path.to_owned();
     for _ in 0..LINKS {
-        if ["/dev", "/proc"].iter().any(|system| path.starts_with(system)) {
+        if ["/dev/fd", "/proc"].iter().any(|system| path.starts_with(system)) {
             return Ok(None);
         }
         match fs::read_link(&path) {

@@ -57,6 +57,13 @@ fn what_is_open_keeps_what_it_held() {
     symlink(format!("/dev/fd/{}", open.as_raw_fd()), &link).unwrap();
     write_atomically(&link, b"new").unwrap();
     assert_eq!(fs::read(&file).unwrap(), b"old new");
+    // Memory that systems lend as a disk has files as any other.
+    if let Ok(folder) = tempfile::tempdir_in("/dev/shm") {
+        let file = folder.path().join("file");
+        write_atomically(&file, b"old").unwrap();
+        write_atomically(&file, b"new").unwrap();
+        assert_eq!(fs::read(&file).unwrap(), b"new");
+    }
 }
 
 #[test]
