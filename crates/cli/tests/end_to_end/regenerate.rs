@@ -289,7 +289,7 @@ fn a_body_in_inches_is_warned_of_and_read_when_said() {
     let faces: String =
         mesh.faces.iter().map(|f| format!("f {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1)).collect();
     let body = folder.write("decimetres.obj", metres + &faces);
-    toile(&["features", word(&body)]).refused(1, "--unit");
+    toile(&["features", word(&body)]).refused(1, "scale it to one of these");
     toile(&["features", word(&body), "--unit", "m"]).refused(1, "metres high");
 }
 
