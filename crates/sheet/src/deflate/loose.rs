@@ -65,7 +65,8 @@ impl Beside<'_> {
         loose.iter().map(length).sum()
     }
 
-    /// Borders that end in the middle of the material instead of at its skin; the foot of a rib's end does so, and what is no longer counts for nothing. O(n log n).
+    /// Borders that end in the middle of the material instead of at its skin; those that are about as
+    /// short as the foot of a rib's end, which does so, do not count. O(n log n).
     pub(super) fn buried(&self, sheet: &Sheet) -> Buried {
         let mesh = TriMesh::new(sheet.positions.clone(), sheet.faces.clone());
         let adjacency = Adjacency::new(&mesh);

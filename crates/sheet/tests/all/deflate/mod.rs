@@ -4,6 +4,7 @@ mod collars;
 mod corners;
 mod divided;
 mod embossed;
+mod features;
 mod flush;
 mod folded;
 mod lumps;
